@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Light along a straight way through the round atmosphere in double precision: plain integrals, without tables.
+ * Light along a straight path through the round atmosphere in double precision, by plain integrals without tables.
  */
 #ifndef MANGATA_REFERENCE_AIR_H
 #define MANGATA_REFERENCE_AIR_H

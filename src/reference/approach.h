@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Brings rays close to their first hit, cheaply: part of reference_lanes.c.
+ * Moves rays close to their first hits at a low cost. A part of reference_lanes.c.
  *
- * The search for the hit sums all waves in double precision at every step. Here steps come from the longest waves alone where the
- * ray is far enough above them that the others cannot reach it, and sums are in single precision, of phases counted from a place on
- * the ray. Bounds leave room for both, so that a ray ends above the water, short of its first hit. Waves stand in lanes within a
- * ray's sum, rays in lanes within the step.
+ * The search for the hit sums all waves in double precision at every step. Here steps use the longest waves alone if the ray is so far above them that the
+ * others cannot reach it. Sums are in single precision, with phases relative to an anchor on the ray. Bounds include both errors, so a ray ends above the
+ * water, before its first hit. A lane is a wave within the sum of a ray, and a ray within a step.
  */
 #ifndef MANGATA_REFERENCE_APPROACH_H
 #define MANGATA_REFERENCE_APPROACH_H
@@ -148,14 +147,13 @@ static void sum_ray(const reference_frame *frame, const reference_batch *batch, 
     state->slope[lane] = add_up(sums.slope);
 }
 
-/* The height over the water that a level cannot exclude, its derivative, and the step that both allow. */
+/* A lower bound f of the ray's height above the water by the waves of a level, a lower bound of its derivative, and the step that both allow. */
 typedef struct level_step {
     reals f, derivative, step;
 } level_step;
 
-/* As safe_step(), beside waves of at most `rest` that f leaves out. Where both bounds are deviations, they and what curvature may add
- * are sums of independent sines, whose deviations add in squares: √(rest² + (curvature s²/2)²) ≤ rest + share · curvature s²/2 up to
- * the root of f, where the derivative is negative. */
+/* safe_step() for a level whose other waves are at most `rest` high. If both bounds are numbers of standard deviations, they belong to independent sums of
+ * sines, so their squares add: √(rest² + (curvature s²/2)²) ≤ rest + share · curvature s²/2 up to the root of f, if the derivative is negative. */
 static inline level_step step_over(const level_bounds *bounds, reals ray_height, reals direction_y, reals water, reals slope)
 {
     level_step result;
@@ -188,7 +186,7 @@ static inline approach_outcome approach_step(approach_state *state, masks finest
     const masks is_above = (masks)(own.f > 0.0);
     const masks evaluations = load_mask(state->evaluations) + 1, exhausted = (masks)(evaluations >= most_evaluations);
     const reals next = select_lanes(is_above, s + own.step, s);
-    /* There is one root ahead: Newton's steps reach it fast. */
+    /* f has one root ahead, which Newton's steps reach fast. */
     const masks near = (masks)(own.derivative < 0.0) & (masks)(own.derivative * own.derivative > 2.0 * own.f * load(state->own.curvature));
 
     approach_outcome outcome;
@@ -202,7 +200,7 @@ static inline approach_outcome approach_step(approach_state *state, masks finest
     return outcome;
 }
 
-/* Moves the starts of rays [first, end) along. */
+/* Moves the starts of the rays [first, end) towards the water. */
 static void approach_rays(const reference_frame *frame, reference_batch *batch, uint32_t first, uint32_t end)
 {
     approach_bounds bounds;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * First hits of rays with choppy water: water that rests at u is shifted to u + D(u). Included by the lane builds; waves stand in lanes.
+ * First hits of rays with choppy water, in which the water at rest at u is shifted to u + D(u). The lane builds include this file. Lanes are waves.
  *
- * A ray's vertical plane, of direction d along the ray and n across it, cuts the water along a curve of places of rest u = o + v d + w n: for each v
- * Newton's steps find the w whose water lies in the plane. Along the curve s(v) is how far the water stands from the eye and g(v) how far the ray is
- * above it. Sums of sines bound the derivatives of g, so that a step in v cannot pass its first zero; where the water folds, s(v) goes back a little
- * and nothing else changes. Sums over the longest waves alone serve where the others cannot reach the ray.
+ * The vertical plane of a ray, with the directions d along the ray and n across it, cuts the water along a curve of places at rest u = o + v d + w n. For each
+ * v, Newton's steps find the w whose water lies in the plane. Along the curve, s(v) is the distance of the water from the eye, and g(v) the ray's height above
+ * it. Sums of sines bound the derivatives of g, so that a step in v cannot pass its first zero. Where the water folds, s(v) only goes back a little. Sums are
+ * over the longest waves alone if the others cannot reach the ray.
  */
 #ifndef MANGATA_REFERENCE_CHOPPY_H
 #define MANGATA_REFERENCE_CHOPPY_H
@@ -15,8 +15,8 @@
 typedef struct choppy_ray {
     const reference_frame *frame;
     double origin[3], time_offset;
-    double along[2], across[2]; /* horizontal, unit */
-    double rise;                /* height that the ray gains per metre along */
+    double along[2], across[2]; /* unit horizontal directions d and n */
+    double rise;                /* height that the ray gains per horizontal metre */
 } choppy_ray;
 
 typedef struct curve_point {
@@ -36,17 +36,17 @@ static inline double between(const double a[2], const double m[3], const double 
     return a[0] * (m[0] * b[0] + m[1] * b[1]) + a[1] * (m[1] * b[0] + m[2] * b[1]);
 }
 
-/* Share of the height over the water within which a point may be wrong while the ray is still above it. */
+/* Largest error of the height above the water, as a fraction of it, at a point where the ray is still above the water. */
 static const double most_doubt = 0.02;
 
-/* The point at v; `across` is near its w. Newton's steps within what the shift can be; halves of that where they lead out of it. They end early where
- * the ray is above `rest`, and what is left of the way to the plane cannot change this height by more than most_doubt of it: g and dg/dv are then
- * lowered by as much. `rest` of +inf: they never end early. */
+/* The point at v. `across` is an estimate of its w. Newton's steps stay within the bound of the shift, and are replaced by bisection where they would leave it.
+ * They end early if the ray is above `rest`, and the remaining distance to the plane cannot change its height above the water by more than the fraction
+ * most_doubt; g and dg/dv are then lowered by as much. `rest` = +inf: they never end early. */
 static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, double v, double across, double rest)
 {
     const reference_columns *c = &ray->frame->columns;
     double least = -level->shift, most = level->shift, w = fmin(fmax(across, least), most);
-    const double fall = level->slope * level->most_stretch, rise = fabs(ray->rise) * level->most_stretch; /* for a metre of w, at most */
+    const double fall = level->slope * level->most_stretch, rise = fabs(ray->rise) * level->most_stretch; /* upper bounds per metre of w */
     double doubt = 0, stretch = 1;
     choppy_sums sums = {0};
     for (int i = 0; i < 60; i++) {
@@ -78,7 +78,7 @@ static curve_point curve_at(const choppy_ray *ray, const choppy_level *level, do
     return p;
 }
 
-/* How far v may go before g, of derivative d that falls by at most `bend` a metre and never below `least`, reaches 0. */
+/* Lower bound of the distance in v at which g reaches 0. Its derivative d falls by at most `bend` per metre and never below `least`. */
 static double free_way(double g, double d, double least, double bend)
 {
     const double until = fmax(d - least, 0) / bend, there = g + until * 0.5 * (d + least);
@@ -166,7 +166,7 @@ static void choppy_search(const reference_frame *frame, reference_batch *batch, 
         const double above = p.above - rest;
         batch->evaluations++;
         across = p.across;
-        if (p.distance < start) { /* before the ray begins */
+        if (p.distance < start) { /* the point lies before the ray's beginning */
             last = v;
             v += fmax((start - p.distance) / l->most_stretch, 1e-9 * (1 + start));
             continue;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Lanes of doubles: REFERENCE_LANES of them in one GNU vector. Every operation acts per lane and gives the same bits at every
- * width; fma() is always fused.
+ * Lanes of doubles: GNU vectors of REFERENCE_LANES elements. Operations act per lane and give the same bits at every width. fma() is always fused.
  */
 #ifndef MANGATA_REFERENCE_DOUBLE_LANES_H
 #define MANGATA_REFERENCE_DOUBLE_LANES_H
@@ -18,9 +17,9 @@
 #endif
 
 typedef double reals __attribute__((vector_size(8 * REFERENCE_LANES)));
-typedef int64_t masks __attribute__((vector_size(8 * REFERENCE_LANES))); /* per lane 0 or −1 */
+typedef int64_t masks __attribute__((vector_size(8 * REFERENCE_LANES))); /* 0 or −1 in each lane */
 
-/* The same in memory, where they are arrays of numbers. */
+/* These types in memory, where they alias arrays of numbers. */
 typedef reals reals_memory __attribute__((may_alias));
 typedef masks masks_memory __attribute__((may_alias));
 
@@ -70,7 +69,7 @@ static inline reals lesser(reals a, reals b) { return select_lanes((masks)(a < b
 
 static inline reals greater(reals a, reals b) { return select_lanes((masks)(a > b), a, b); }
 
-/* Bit i is set where lane i of the mask is. */
+/* Bit i is set if lane i of the mask is. */
 static inline uint32_t lane_bits(masks which)
 {
 #if REFERENCE_LANES == 8 && defined(__AVX512DQ__)
@@ -89,8 +88,8 @@ typedef struct sine_cosine {
     reals sine, cosine;
 } sine_cosine;
 
-/* sin(πp) and cos(πp) for |p| < 2⁵⁰; p = n + r with n the nearest integer, so the reduction is exact. Errors below 5e-14 and
- * 8e-13: Chebyshev fits of sin(πr)/r and cos(πr) in r² over [0, ¼]. */
+/* sin(πp) and cos(πp) for |p| < 2⁵⁰. p = n + r with the nearest integer n, so the reduction is exact. sin(πr)/r and cos(πr) are Chebyshev fits in r² over [0,
+ * ¼], with errors below 5e-14 and 8e-13. */
 static inline sine_cosine sine_cosine_half_turns(reals p)
 {
     const double round_magic = 0x1.8p52; /* adding it rounds to an integer and leaves its parity in the lowest bit */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every equation of the model once more, in double precision and in its simplest form. Tests compare the kernels with it. Where a closed form could share a
- * mistake with a kernel, the value here comes from a quadrature or from finite differences.
+ * Independent implementation of the model's equations, in double precision and in their simplest form. Tests compare the kernels with it. Where a closed form
+ * could share a mistake with a kernel, the value here comes from a quadrature or from finite differences.
  *
  * Two-dimensional quantities: slopes are (∂y/∂x, ∂y/∂z); covariances are {xx, xz, zz}; matrices are m[row][column].
  */

@@ -12,7 +12,7 @@ typedef struct foam_point {
     double white; /* the sum of that fraction times the foam's whiteness, over the moments */
 } foam_point;
 
-/* The foam at a place of rest (x, z), world coordinates in metres, and at a time in seconds. */
+/* The foam at a place at rest (x, z), world coordinates in metres, and at a time in seconds. */
 foam_point reference_foam_at(const foam_sea *sea, double x, double z, double time);
 
 /* The fraction of foam that each moment adds at that place, before the pattern is applied: 0 or 1 for the moment now, in [0, 1] for earlier ones. */

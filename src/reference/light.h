@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The lights of a scene in double precision: disks at infinity. Only light.c looks inside.
+ * The lights of a scene in double precision: disks at infinity. Only light.c accesses the struct's members.
  */
 #ifndef MANGATA_REFERENCE_LIGHT_H
 #define MANGATA_REFERENCE_LIGHT_H
@@ -9,7 +9,7 @@
 
 #include "mangata/mangata.h"
 
-enum { REFERENCE_LIGHTS = 1 }; /* most lights of a scene */
+enum { REFERENCE_LIGHTS = 1 }; /* largest number of lights of a scene */
 
 typedef struct reference_lights reference_lights;
 

@@ -10,10 +10,10 @@
 enum { REFERENCE_CELLS = 64 }; /* a multiple of every lane count */
 
 typedef enum cell_verdict {
-    CELL_DARK,    /* no slope in it mirrors a light */
-    CELL_POINT,   /* a random point of it is to be evaluated */
-    CELL_HALVE_X, /* it is to be halved along its first side */
-    CELL_HALVE_Y  /* it is to be halved along its second side */
+    CELL_DARK,    /* no slope in the cell mirrors a light */
+    CELL_POINT,   /* a random point of the cell must be evaluated */
+    CELL_HALVE_X, /* the cell must be halved along its first side */
+    CELL_HALVE_Y  /* the cell must be halved along its second side */
 } cell_verdict;
 
 typedef struct light_disk {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Adaptive Gauss–Legendre quadrature for the oracle.
+ * Adaptive Gauss–Legendre quadrature for the reference.
  */
 #ifndef MANGATA_REFERENCE_QUADRATURE_H
 #define MANGATA_REFERENCE_QUADRATURE_H

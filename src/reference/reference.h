@@ -3,14 +3,14 @@
  * The path-traced reference: every pixel is the mean of jittered samples. A sample is a ray that is mirrored at its first hit of the displaced surface. It
  * uses double precision throughout and shares no code with the kernels.
  *
- * Samples. quality.spatial_samples N and time_samples M give N·N·M strata of (pixel area × shutter): one sample in each,
- * jittered in x, y and time by a hash of (seed, pixel x, pixel y, sample index) alone. Every N·N consecutive samples cover all
- * spatial strata, with the time strata interleaved; all N·N·M cover each pair once. With shutter 0 every sample shows scene.time.
+ * Samples. quality.spatial_samples N and time_samples M give N·N·M strata of (pixel area × shutter). Each has one sample, which is jittered in x, y and time by
+ * a hash of seed, pixel and sample index alone. N·N consecutive samples cover all spatial strata, with interleaved time strata, and all N·N·M samples cover
+ * each pair once. With shutter 0 every sample shows scene.time.
  *
- * Coverage of a sample is 1 when the mirrored ray lies within a light's angular radius and that light's centre stands at or
- * above the horizon. Only the first hit counts; nothing shadows the mirrored ray.
+ * The coverage of a sample is 1 if the mirrored ray lies within a light's angular radius and that light's centre stands at or above the horizon. Only the first
+ * hit counts, and nothing shadows the mirrored ray.
  *
- * Sums over samples are exact (base/exact_sum.h): whatever the order and the ranges in which samples are taken, their sums have the same bits.
+ * Sums over samples are exact (base/exact_sum.h). Their bits depend neither on the order nor on the ranges in which samples are taken.
  *
  * With quality.light_cells, samples show the sky alone, and mirrored lights come from light_cells.h, whatever the range of samples is. Coverage is then an
  * estimate that may exceed 1 a little.
@@ -40,7 +40,7 @@ typedef struct reference_sky {
 } reference_sky;
 
 typedef struct reference_options {
-    mgt_isa isa; /* AUTO: the best; SSE2 and NEON run the one-lane build. Every choice gives the same bits. */
+    mgt_isa isa; /* MGT_ISA_AUTO: the best one. SSE2 and NEON run the one-lane build. The bits do not depend on it. */
 
     /* Number of standard deviations in the bounds of the waves' slope and curvature along the ray, by which the hit search steps. A bound is this many
      * standard deviations or the exhaustive bound, for which all crests are aligned, whichever is smaller. 0: REFERENCE_BOUND_DEVIATIONS. INFINITY: only the

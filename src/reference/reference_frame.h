@@ -33,9 +33,9 @@ typedef struct reference_batch {
     double above[REFERENCE_BATCH];                                         /* the last distance known to be above the water */
 
     double distance[REFERENCE_BATCH];                          /* metres to the first hit; +inf: none; 0: the camera is under the surface */
-    double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* at the hit */
-    double rest_x[REFERENCE_BATCH], rest_z[REFERENCE_BATCH];   /* only for choppy water: the hit's place of rest */
-    double bend_xx[REFERENCE_BATCH], bend_xz[REFERENCE_BATCH], bend_zz[REFERENCE_BATCH]; /* second derivatives there */
+    double slope_x[REFERENCE_BATCH], slope_z[REFERENCE_BATCH]; /* slope at the hit */
+    double rest_x[REFERENCE_BATCH], rest_z[REFERENCE_BATCH];   /* only for choppy water: the hit's place at rest */
+    double bend_xx[REFERENCE_BATCH], bend_xz[REFERENCE_BATCH], bend_zz[REFERENCE_BATCH]; /* second derivatives at the hit, 1/metre */
 
     uint64_t evaluations; /* the number of evaluated sums of waves is added to it */
 } reference_batch;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sine waves as the reference renderer keeps and sums them.
+ * Sine waves of the reference renderer, and their sums.
  */
 #ifndef MANGATA_REFERENCE_SINES_H
 #define MANGATA_REFERENCE_SINES_H
@@ -37,18 +37,18 @@ typedef struct reference_columns {
     _Alignas(64) double half_turns_a[REFERENCE_MOST_WAVES], half_turns_b[REFERENCE_MOST_WAVES], half_turns_c[REFERENCE_MOST_WAVES];
     double phase[REFERENCE_MOST_WAVES], amplitude_a[REFERENCE_MOST_WAVES], amplitude_b[REFERENCE_MOST_WAVES];
     float amplitude[REFERENCE_MOST_WAVES];
-    /* Of choppy water: height; shift over the cosine; minus ∂shift/∂place over the sine. */
+    /* For choppy water: height; factor of the cosine in the shift; factor of the sine in −∂shift/∂place. */
     _Alignas(64) double height[REFERENCE_MOST_WAVES], shift_a[REFERENCE_MOST_WAVES], shift_b[REFERENCE_MOST_WAVES];
     double press_aa[REFERENCE_MOST_WAVES], press_ab[REFERENCE_MOST_WAVES], press_bb[REFERENCE_MOST_WAVES];
 } reference_columns;
 
-/* Choppy water at a place of rest. */
+/* Sums of choppy water at a place at rest. */
 typedef struct choppy_sums {
     double height, slope[2], shift[2];
     double stretch[3]; /* xx, xz, zz of 1 + ∂shift/∂place */
 } choppy_sums;
 
-/* Bounds of choppy water along a curve of places of rest, for the longest waves. */
+/* Bounds of choppy water along a curve of places at rest, for the longest waves. */
 typedef struct choppy_level {
     uint32_t waves;
     double shift;            /* shift by all waves along a direction, metres */
@@ -76,8 +76,8 @@ void choppy_levels_of(const reference_wave *waves, double choppiness, double dev
 /* Fills `levels`, of which the last one has all waves. Returns their number. */
 uint32_t reference_levels_of(const reference_wave *waves, uint32_t count, double deviations, reference_level levels[REFERENCE_LEVELS]);
 
-/* What the waves may change within parallelograms. Along direction i of slopes the slope differs from what first derivatives make of the middle's by no more than
- * first + both + second: of the first side, of both and of the second, so that shares x and y of the sides take x², x·y and y² of them. */
+/* Bounds within a parallelogram. Along direction i of slope space, the slope differs from its first-order expansion at the middle by at most first[i] + both[i]
+ * + second[i]. For a parallelogram with the fractions x and y of the sides, the bound is x² first[i] + x y both[i] + y² second[i]. */
 typedef struct reference_bend {
     double first[2], both[2], second[2];
     double height; /* bound of the difference in height from the middle, within whole[i] parallelograms along each side i, metres */
@@ -89,7 +89,7 @@ reference_bend reference_waves_bend(const reference_wave *waves, uint32_t count,
 /* Distance within which the slope differs from its first-order expansion by at most `share` of its standard deviation, metres. +inf: there are no waves. */
 double reference_waves_straight(const reference_wave *waves, uint32_t count, double share);
 
-/* At a place of rest x, z and time offset: ∇²h − Σ slope_i ∇²D_i (xx, xz, zz), and the stretch of `sums`. */
+/* Fills `bend` with ∇²h − Σ slope_i ∇²D_i (xx, xz, zz), and the stretch of `sums`. `place`: x and z at rest, and time offset. */
 void choppy_bend_at_rest(const reference_wave *waves, uint32_t count, double choppiness, const double place[3], const double slope[2], double bend[3],
                          choppy_sums *sums);
 
@@ -99,7 +99,7 @@ void reference_waves_mirror(reference_wave *waves, size_t count);
 /* Height and slope along a direction if the crests of all waves were aligned. */
 void water_worst_case(const mgt_water *water, const double direction[3], double *height, double *slope);
 
-#ifdef MANGATA_REFERENCE_DOUBLE_LANES_H /* for what is compiled in lanes */
+#ifdef MANGATA_REFERENCE_DOUBLE_LANES_H /* only for files that are compiled in lanes */
 typedef struct lane_surface {
     reals height, slope_x, slope_z;
 } lane_surface;
@@ -177,7 +177,7 @@ static inline void waves_bounds(const reference_wave *waves, uint32_t count, rea
     *total = sum;
 }
 
-/* ---- choppy water: sums by parts of eight waves, whatever the lanes ---- */
+/* ---- choppy water: eight partial sums at every number of lanes ---- */
 
 enum { CHOPPY_PARTS = 8 / REFERENCE_LANES, CHOPPY_SUMS = 8 };
 
@@ -216,7 +216,7 @@ static inline choppy_sums choppy_sums_at(const reference_columns *c, uint32_t co
 
 /* ---- sums in single precision ---- */
 
-/* A sum adds blocks of 16 waves to 16 partial sums, whatever the lanes. */
+/* Blocks of 16 waves are added to 16 partial sums at every number of lanes, so that the bits are the same. */
 #define FLOAT_LANES (REFERENCE_LANES == 1 ? 1 : 2 * REFERENCE_LANES)
 enum { PARTS = REFERENCE_BLOCK / FLOAT_LANES };
 
@@ -244,13 +244,13 @@ static inline floats fused_floats(floats a, floats b, floats c)
 #endif
 }
 
-/* The waves along one ray: phase + turns · (distance from the anchor), in half turns. */
+/* The waves along one ray. A wave's phase is phase + turns · (distance from the anchor), half turns. */
 typedef struct ray_waves {
     _Alignas(64) float phase[REFERENCE_MOST_WAVES], turns[REFERENCE_MOST_WAVES], slope[REFERENCE_MOST_WAVES];
 } ray_waves;
 
 typedef struct partial_sums {
-    floats height[PARTS], slope[PARTS]; /* slope: of the height along the ray */
+    floats height[PARTS], slope[PARTS]; /* `slope`: derivative of the height along the ray */
 } partial_sums;
 
 static inline void place_waves(const reference_columns *from, uint32_t first, uint32_t end, const double place[3], const double direction[2], ray_waves *to)
@@ -270,7 +270,7 @@ static inline void place_waves(const reference_columns *from, uint32_t first, ui
     }
 }
 
-/* Adds blocks. Errors of sin(πp) and cos(πp) beside those of p are below 2e-7: Chebyshev fits in r² over [0, ¼], p = n + r. */
+/* Adds blocks of waves. sin(πp) and cos(πp) are Chebyshev fits in r² over [0, ¼], for p = n + r. Their errors are below 2e-7, besides those of p. */
 static inline void add_waves(const ray_waves *ray, const reference_columns *columns, uint32_t from, uint32_t to, float distance, partial_sums *sums)
 {
     const float round_magic = 0x1.8p23f;
@@ -297,7 +297,7 @@ static inline void add_waves(const ray_waves *ray, const reference_columns *colu
         }
 }
 
-/* Of 16 partial sums: halves added to halves. */
+/* The sum of 16 partial sums. Halves are added to halves. */
 static inline double add_up(const floats part[PARTS])
 {
     typedef float eight __attribute__((vector_size(32), may_alias));
