@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/numbers.h"
@@ -56,6 +57,13 @@ static int print_path(const diff_map *map, uint32_t frame, char path[PATH_SIZE])
                                                                 : console_error(EXIT_CODE_USAGE, "--error-map %s: the path is too long", map->path);
 }
 
+/* The same name, or another one of the same file. */
+static bool same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
+}
+
 static int check_name(const diff_maps *maps, int place, bool numbered, const char *const inputs[3])
 {
     const diff_map *map = &maps->maps[clip_mapped[place]];
@@ -63,7 +71,7 @@ static int check_name(const diff_maps *maps, int place, bool numbered, const cha
         return console_error(EXIT_CODE_USAGE, "--error-map %s: %s", map->path,
                              numbered ? "several frames are compared; number the files: flip_%04d.png" : "one picture is compared; leave the frame number out");
     for (int i = 0; i < 3; i++)
-        if (inputs[i] && strcmp(inputs[i], map->path) == 0)
+        if (inputs[i] && same_file(inputs[i], map->path))
             return console_error(EXIT_CODE_USAGE, "--error-map %s: that picture is compared", map->path);
     for (int i = 0; i < place; i++)
         if (maps->maps[clip_mapped[i]].path && strcmp(maps->maps[clip_mapped[i]].path, map->path) == 0)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Output files that appear whole or not at all. A file is written under a hidden temporary name in the target's folder and renamed when it is complete. A
- * process that is killed leaves at most that hidden file (.mangata-PID-N.tmp), never a part of a file under its final name. To end cleanly on SIGINT, the
+ * process that is killed leaves at most that hidden file (.mangata-PID-N.tmp), never a part of a file under its final name. A symbolic link is followed: it
+ * stays, and the file that it names is written. In a sticky folder that all may write to, only links of the user and of the folder's owner are followed. A
+ * file that replaces another one takes its permission bits. To end cleanly on SIGINT, the
  * handler sets the flag `cancel`; the writer then removes the file and returns FILE_CANCELLED. */
 #ifndef MANGATA_IMAGE_OUTPUT_FILE_H
 #define MANGATA_IMAGE_OUTPUT_FILE_H
@@ -61,7 +63,7 @@ bool output_file_is_published(const output_file *file);
 
 /* Whether the final name may be taken now: FILE_OK, FILE_EXISTS or FILE_WRITE. */
 file_status output_file_check_target(const output_file *file, bool overwrite, file_error *error);
-/* A descriptor of the file that has the final name, not through a link. The caller closes it. -1: errno tells why. */
+/* A descriptor of the file that has the final name. The caller closes it. -1: errno tells why. */
 int output_file_open_target(const output_file *file);
 /* Whether `descriptor` is the file that has the final name. */
 bool output_file_is_target(const output_file *file, int descriptor);

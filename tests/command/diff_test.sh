@@ -151,6 +151,8 @@ expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map energy=a.png
 expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map flip=a.jpg
 expect 64 'METRIC=FILE' "$MANGATA" diff a.pfm b.pfm --error-map flip.png
 expect 64 'that picture is compared' "$MANGATA" diff a.pfm b.pfm --error-map rmse=a.pfm --overwrite
+ln -s a.pfm also_a.pfm
+expect 64 'also_a.pfm: that picture is compared' "$MANGATA" diff a.pfm b.pfm --error-map rmse=also_a.pfm --overwrite
 expect 64 '--error-map flip=f.png: the metric has a map already, e.png' "$MANGATA" diff a.pfm b.pfm --error-map flip=e.png --error-map flip=f.png
 expect 64 'two maps of one name' "$MANGATA" diff a.pfm b.pfm --error-map rmse=e.png --error-map flip=e.png
 expect 64 'number the files' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map flip=e.png

@@ -9,6 +9,23 @@ expect 73 'a.png: .*--overwrite' render "$simple" -o a.png "${small[@]}"
 works render "$simple" -o a.png "${small[@]}" --overwrite
 expect 0 'a.png: 1 frame of 64 x 36' render "$simple" -o a.png "${small[@]}" --overwrite
 
+# A link stays a link, and what it names is replaced, or made, with the permissions that it had.
+for end in png pfm y4m; do
+    mkdir -p shelf
+    ln -s shelf/kept.$end link.$end
+    works render "$simple" -o link.$end "${small[@]}" "${null[@]}" --frames 0 --quiet
+    exists shelf/kept.$end
+    chmod 640 shelf/kept.$end
+    cp shelf/kept.$end kept
+    expect 73 "link.$end: .*--overwrite" render "$simple" -o link.$end "${small[@]}" "${null[@]}" --frames 0
+    works render "$simple" -o link.$end --size 32x18 "${null[@]}" --frames 0 --quiet --overwrite
+    differ shelf/kept.$end kept
+    [[ -L link.$end && $(stat -c %a shelf/kept.$end) == 640 ]] || fail "link.$end: $(ls -l link.$end shelf)"
+    no_temporaries shelf
+    works render "$simple" -o link.$end --size 32x18 "${null[@]}" --frames 0 --quiet --skip-existing
+done
+expect 73 'away.png: cannot write: folder .*nowhere: No such file' render "$simple" -o "$(ln -s nowhere/a.png away.png && echo away.png)" "${small[@]}"
+
 for layer in color coverage mask depth normal; do
     works render "$simple" -o $layer.pfm --layer $layer "${small[@]}" --quiet
     exists $layer.pfm $layer.pfm.json

@@ -108,6 +108,123 @@ static void test_existing_is_refused(void **state)
     assert_int_equal(folder_entries(folder->path), 1);
 }
 
+static file_status replace(const char *path, const char *text, file_error *error)
+{
+    return output_file_write_whole(path, text, strlen(text), &(output_options){.overwrite = true}, error);
+}
+
+static void assert_text(const char *path, const char *text)
+{
+    size_t size;
+    unsigned char *bytes = file_bytes(path, &size);
+    assert_int_equal(size, strlen(text));
+    assert_memory_equal(bytes, text, size);
+    free(bytes);
+}
+
+static void assert_link(const char *path)
+{
+    struct stat info;
+    assert_int_equal(lstat(path, &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+}
+
+/* A link stays, and the file that it names in the end is replaced, or created where there is none. */
+static void test_links_are_followed(void **state)
+{
+    test_folder *folder = *state;
+    char link[512], other[512], inner[512], target[512], path[512];
+    file_error error;
+    assert_int_equal(mkdir(in_folder(folder, "d", inner), 0700), 0);
+    write_bytes(in_folder(folder, "d/a", target), "old", 3);
+    assert_int_equal(symlink(in_folder(folder, "d/b", other), in_folder(folder, "l", link)), 0);
+    assert_int_equal(symlink("../d/a", other), 0);
+    assert_int_equal(output_file_check(link, NULL, &error), FILE_EXISTS);
+    assert_int_equal(output_file_write_whole(link, "x", 1, NULL, &error), FILE_EXISTS);
+    assert_non_null(strstr(error.text, link));
+    assert_int_equal(replace(link, "newer", &error), FILE_OK);
+    assert_text(target, "newer");
+    assert_link(link);
+    assert_link(other);
+
+    assert_int_equal(unlink(target), 0);
+    assert_int_equal(output_file_check(link, NULL, &error), FILE_OK);
+    output_file *file;
+    assert_int_equal(output_file_open(&file, link, NULL, &error), FILE_OK);
+    assert_memory_equal(output_file_temporary_path(file), inner, strlen(inner)); /* beside the file itself, which may lie on another disk */
+    assert_int_equal(output_file_write(file, "made", 4, &error), FILE_OK);
+    assert_int_equal(output_file_finish(file, &error), FILE_OK);
+    assert_text(target, "made");
+    assert_link(link);
+    assert_int_equal(folder_entries(folder->path), 2);
+    assert_int_equal(folder_entries(inner), 2);
+
+    static const char *const bad[][2] = {{"d", "is a directory"},
+                                         {"d/", "is a directory"},
+                                         {"none/a", "No such file"},
+                                         {"r", "symbolic links"},
+                                         {"/dev/null", "not a regular"}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(symlink(bad[i][0], in_folder(folder, "r", path)), 0);
+        assert_int_equal(output_file_check(path, &(output_options){.overwrite = true}, &error), FILE_WRITE);
+        assert_int_equal(replace(path, "x", &error), FILE_WRITE);
+        assert_non_null(strstr(error.text, bad[i][1]));
+        assert_non_null(strstr(error.text, path));
+        assert_int_equal(output_file_check_kind(path, NULL), i == 2 || i == 3 ? FILE_OK : FILE_WRITE);
+        assert_link(path);
+        assert_int_equal(unlink(path), 0);
+    }
+}
+
+/* In a folder like /tmp a link of another user leads nowhere, one of our own or of the folder's owner is followed. */
+static void test_links_of_others(void **state)
+{
+    test_folder *folder = *state;
+    char link[512], target[512];
+    file_error error;
+    if (geteuid() != 0)
+        return;
+    write_bytes(in_folder(folder, "a", target), "old", 3);
+    assert_int_equal(symlink("a", in_folder(folder, "l", link)), 0);
+    assert_int_equal(chmod(folder->path, 01777), 0);
+    assert_int_equal(replace(link, "own", &error), FILE_OK);
+    assert_int_equal(lchown(link, 65534, 65534), 0);
+    assert_int_equal(replace(link, "x", &error), FILE_WRITE);
+    assert_non_null(strstr(error.text, "another user's link"));
+    assert_text(target, "own");
+    assert_int_equal(chmod(folder->path, 0777), 0);
+    assert_int_equal(replace(link, "newer", &error), FILE_OK);
+    assert_text(target, "newer");
+}
+
+/* The new file has the permissions of the old one from its first byte on. */
+static void test_mode_is_kept(void **state)
+{
+    test_folder *folder = *state;
+    static const mode_t modes[] = {0600, 0640, 0755, 0444, 0666};
+    char path[512];
+    struct stat info;
+    file_error error;
+    const mode_t mask = umask(027);
+    in_folder(folder, "a", path);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        output_file *file;
+        assert_int_equal(replace(path, "old", &error), FILE_OK);
+        assert_int_equal(chmod(path, modes[i]), 0);
+        assert_int_equal(output_file_open(&file, path, &(output_options){.overwrite = true}, &error), FILE_OK);
+        assert_int_equal(stat(output_file_temporary_path(file), &info), 0);
+        assert_int_equal(info.st_mode & 07777, modes[i] | 0600);
+        assert_int_equal(output_file_finish(file, &error), FILE_OK);
+        assert_int_equal(stat(path, &info), 0);
+        assert_int_equal(info.st_mode & 07777, modes[i]);
+    }
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(replace(path, "first", &error), FILE_OK);
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 07777, 0640);
+    umask(mask);
+}
+
 /* Another process creates the name between open and finish. */
 static void test_no_race_for_the_name(void **state)
 {
@@ -480,6 +597,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_appears_only_when_finished, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_abort_leaves_nothing, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_existing_is_refused, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_links_are_followed, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_links_of_others, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(test_mode_is_kept, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_no_race_for_the_name, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_bad_targets, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(test_long_name_and_relative_path, folder_setup, folder_teardown),
