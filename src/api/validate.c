@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/affine.h"
 #include "frame/mesh.h"
 #include "frame/targets.h"
 #include "params/methods.h"
@@ -155,10 +156,8 @@ static mgt_status check_objects(const reporter *r, const mgt_scene *scene)
             return report_error(r, MGT_ERROR_ARGUMENT, "render.scene", "objects[%zu].mesh is NULL", i);
         for (int k = 0; k < 12; k++)
             TRY(object_range(r, i, "transform", o->transform[k / 4][k % 4], -1e6, 1e6));
-        const double(*t)[4] = o->transform;
-        const double volume = t[0][0] * (t[1][1] * t[2][2] - t[1][2] * t[2][1]) - t[0][1] * (t[1][0] * t[2][2] - t[1][2] * t[2][0]) +
-                              t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0]);
-        if (!(fabs(volume) > 1e-24))
+        const double volume = affine_volume(o->transform);
+        if (!affine_keeps_volume(volume))
             return report_error(r, MGT_ERROR_SCENE, "render.scene", "objects[%zu].transform flattens the mesh; its determinant is %g", i, volume);
         TRY(check_material(r, i, &o->material));
         triangles += o->mesh->triangle_count;

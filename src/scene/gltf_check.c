@@ -382,6 +382,34 @@ static bool check_version(gltf_reader *g)
            gltf_refuse(g, version, "asset.version is %.*s; allowed: 2.0", (int)(version->length < 20 ? version->length : 20), g->json.text + version->at);
 }
 
+/* Extensions without which a file would be seen otherwise. Those that are known add nothing that a scene shows: lights, highlights, words about the file. */
+static bool check_extensions(gltf_reader *g)
+{
+    static const char *const known[] = {"KHR_lights_punctual", "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                        "KHR_materials_sheen", "KHR_materials_specular",  "KHR_materials_variants",          "KHR_xmp_json_ld"};
+    enum { KNOWN = sizeof known / sizeof *known };
+    const json_value *required, *first = NULL;
+    char names[80] = "", allowed[240] = "";
+    if (!take_kind(g, &g->json.values[0], "document", "extensionsRequired", JSON_LIST, false, &required))
+        return false;
+    for (const json_value *v = json_text_first(&g->json, required); v != NULL; v = json_text_next(&g->json, v)) {
+        int i = 0;
+        if (v->kind != JSON_STRING)
+            return gltf_refuse(g, v, "extensionsRequired holds a value that is not a string; allowed: names of extensions");
+        while (i < KNOWN && !json_text_is(&g->json, v, known[i]))
+            i++;
+        if (i < KNOWN)
+            continue;
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%.40s", first != NULL ? ", " : "", scene_quote_text(g->json.text + v->at, v->length).text);
+        if (first == NULL)
+            first = v;
+    }
+    for (int i = 0; i < KNOWN; i++)
+        snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", i > 0 ? ", " : "", known[i]);
+    return first == NULL || gltf_refuse(g, first, "extensionsRequired names %s: not supported; allowed: %s", names, allowed);
+}
+
 typedef bool (*item_check)(gltf_reader *, const json_value *, size_t);
 
 static bool check_items(gltf_reader *g, gltf_lists which, item_check check)
@@ -400,7 +428,7 @@ static bool check_document(gltf_reader *g)
          [GLTF_NODES] = "nodes",       [GLTF_SCENES] = "scenes",       [GLTF_IMAGES] = "images",       [GLTF_TEXTURES] = "textures",
          [GLTF_SAMPLERS] = "samplers", [GLTF_MATERIALS] = "materials", [GLTF_SKINS] = "skins"};
     long scene;
-    if (!check_version(g))
+    if (!check_version(g) || !check_extensions(g))
         return false;
     for (int i = 0; i < GLTF_LIST_COUNT; i++)
         if (!take_items(g, names[i], &g->lists[i]))

@@ -277,6 +277,16 @@ static double reach_of(const read_mesh *mesh, const double t[3][4])
     return reach;
 }
 
+/* A node that is scaled to nothing hides its meshes: the specification's way to make them visible and invisible (Khronos, section 3.5.3). */
+static bool is_hidden(const wire_part *part)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (part->transform[i][j] != 0)
+                return false;
+    return true;
+}
+
 static bool read_parts(model_reader *r)
 {
     scene_model *model = r->model;
@@ -292,6 +302,8 @@ static bool read_parts(model_reader *r)
         const read_mesh *mesh = in->mesh < r->header.mesh_count ? &r->meshes[in->mesh] : NULL;
         if (mesh == NULL || mesh->positions == NULL || mesh->head.material >= r->header.material_count)
             return refuse(r->fault, r->path, "mangata-import names a mesh or a material that does not exist");
+        if (is_hidden(in))
+            continue;
         model_part *part = &model->parts[model->part_count++];
         *part = (model_part){.mesh = model->meshes[mesh->of_model], .material = r->materials[mesh->head.material]};
         memcpy(part->transform, in->transform, sizeof part->transform);

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/affine.h"
 #include "base/pixel_budget.h"
 #include "scene/model.h"
 #include "scene/scene_sea.h"
@@ -360,6 +361,11 @@ static bool add_parts(models_reader *r, size_t index, const tree_node *item, con
         *o = (mgt_object){.mesh = model->parts[i].mesh,
                           .material = object->material.given || object->shape != SHAPE_MESH ? object->material.look : model->parts[i].material};
         memcpy(o->transform, whole.at, sizeof o->transform);
+        if (!affine_keeps_volume(affine_volume(whole.at)))
+            return tree_error(r->tree, item->source, item->place, r->error,
+                              "objects[%zu] flattens a part of its mesh: with the scales of the file's nodes it has no volume left; "
+                              "allowed: scales other than 0, or a node that is 0 along all axes, which hides its meshes",
+                              index);
         if (texture != NULL)
             o->material.texture = texture;
     }

@@ -110,6 +110,10 @@ def gltf(name, pattern, *edits):
 GLTF = [
     ("no asset", "asset is missing", ("asset", GONE)), ("no version", "asset.version is missing", ("asset.version", GONE)),
     ("version 1", "asset.version is 1.0; allowed: 2.0", ("asset.version", "1.0")), ("version 3", "asset.version is 3.0", ("asset.version", "3.0")),
+    ("Draco required", r"extensionsRequired names KHR_draco_mesh_compression: not supported; allowed: KHR_lights_punctual, ", ("extensionsRequired", ["KHR_xmp_json_ld", "KHR_draco_mesh_compression"])),
+    ("two extensions required", "names EXT_a, KHR_b: not", ("extensionsRequired", ["EXT_a", "KHR_b"])), ("an extension of 100000 letters", "names XXX", ("extensionsRequired", ["X" * 100000])),
+    ("10000 extensions", "names E0, E1", ("extensionsRequired", [f"E{i}" for i in range(10000)])), ("extensions a word", "extensionsRequired is of another kind", ("extensionsRequired", "KHR_a")),
+    ("an extension by number", "extensionsRequired holds a value", ("extensionsRequired", [1])),
     ("version a number", "asset.version is of another kind", ("asset.version", 2)), ("asset a list", "asset is of another kind", ("asset", [])),
     ("scene beyond", "scene is none of the 1 scenes", ("scene", 1)), ("scene negative", "scene is none", ("scene", -1)), ("scene half", "scene is none", ("scene", 0.5)),
     ("scene huge", "scene is none", ("scene", 1e300)), ("scenes an object", "scenes is of another kind", ("scenes", {})), ("scene a number", "holds a value", ("scenes", [1])),

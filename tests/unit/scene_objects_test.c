@@ -216,6 +216,26 @@ static void meshes_of_every_format(void **state)
     scene_file_free(file);
 }
 
+/* nodes_gltf with the scale of its second node replaced. */
+static void put_scaled(const test_folder *folder, const char *name, const char *scale)
+{
+    char text[sizeof nodes_gltf];
+    memcpy(text, nodes_gltf, sizeof text);
+    memcpy(strstr(text, "[2, 2, 2]"), scale, strlen("[2, 2, 2]"));
+    put(folder, name, text);
+}
+
+static void a_node_scaled_to_nothing_hides_its_meshes(void **state)
+{
+    const test_folder *folder = *state;
+    put_scaled(folder, "hidden.gltf", "[0, 0, 0]");
+    scene_file *file = load(folder, "  - mesh: hidden.gltf\n");
+    const mgt_scene scene = scene_of(file);
+    assert_int_equal(scene.object_count, 1);
+    assert_transform(&scene.objects[0], (const double[]){1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3});
+    scene_file_free(file);
+}
+
 /* Files that scripts/fetch_models puts into data/: skipped where they are not. */
 static void fetched_models(void **state)
 {
@@ -383,6 +403,7 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
     put(folder, "nobin.gltf", nobin);
     put(folder, "cycle.gltf",
         "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]}");
+    put_scaled(folder, "flat.gltf", "[2, 0, 2]");
     put(folder, "flatten.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
     put(folder, "jpeg.png", "\xff\xd8\xff\xe0 JFIF and so on, for as long as such files are");
     put(folder, "gif.png", "GIF89a and so on, for as long as such files are");
@@ -432,6 +453,8 @@ static void errors_say_what_where_and_what_is_allowed(void **state)
         {"  - {mesh: nobin.gltf}\n", SCENE_ERROR_BAD_SCENE, "/nobin.bin, which cannot be read; allowed: a file beside"},
         {"  - {mesh: cycle.gltf}\n", SCENE_ERROR_BAD_SCENE, "/cycle.gltf:1:81: nodes[0] is nested deeper than 256 nodes, or in a circle; allowed: "},
         {"  - {mesh: flatten.gltf}\n", SCENE_ERROR_BAD_SCENE, "/flatten.gltf: "},
+        {"  - {mesh: flat.gltf}\n", SCENE_ERROR_BAD_SCENE,
+         "/s.yaml:3:5: objects[0] flattens a part of its mesh: with the scales of the file's nodes it has no volume left; allowed: scales other than 0"},
         {"  - {shape: box, material: {texture: nowhere.png}}\n", SCENE_ERROR_MISSING_INPUT, "/s.yaml:3:38: objects[0].material.texture: "},
         {"  - {shape: box, material: {texture: jpeg.png}}\n", SCENE_ERROR_BAD_SCENE,
          "/jpeg.png: is not a sound JPEG; allowed: a PNG or JPEG picture of at most 16384 x 16384 pixels"},
@@ -492,6 +515,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(places_are_scaled_turned_and_moved, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(materials_are_read, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(meshes_of_every_format, files_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(a_node_scaled_to_nothing_hides_its_meshes, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(fetched_models, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(the_render_hash_knows_what_files_hold, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(copies_share_models_and_write_the_same_scene, files_setup, folder_teardown),
