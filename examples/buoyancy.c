@@ -5,6 +5,7 @@
  *   --size WxH  --frames N  --fps F  --mesh scenes/models/hull.ply
  */
 #include "floating_body.h"
+#include <errno.h>
 #include <mangata/mangata.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,7 +100,11 @@ static bool read_face(FILE *file, const triangles *mesh, uint32_t face[3])
 static bool read_triangles(const char *path, triangles *mesh)
 {
     FILE *file = fopen(path, "rb");
-    bool good = file && read_header(file, mesh);
+    if (!file) {
+        fprintf(stderr, "buoyancy: %s: %s; --mesh PLY names the boat, hull.ply of Mangata's scenes/models\n", path, strerror(errno));
+        return false;
+    }
+    bool good = read_header(file, mesh);
     if (good) {
         mesh->positions = malloc(3 * sizeof(float) * mesh->vertices);
         mesh->indices = malloc(3 * sizeof(uint32_t) * mesh->count);
@@ -107,10 +112,9 @@ static bool read_triangles(const char *path, triangles *mesh)
     }
     for (uint32_t i = 0; good && i < mesh->count; i++)
         good = read_face(file, mesh, mesh->indices + 3 * i);
-    if (file)
-        fclose(file);
+    fclose(file);
     if (!good)
-        fprintf(stderr, "buoyancy: %s is no mesh of the boat\n", path);
+        fprintf(stderr, "buoyancy: %s is no mesh of the boat: no binary PLY of triangles with x, y, z alone\n", path);
     return good;
 }
 

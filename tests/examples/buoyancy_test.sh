@@ -19,6 +19,8 @@ for wrong in "--mesh none.ply b_#.ppm" "--mesh $source/README.md b_#.ppm" "--mes
     "$buoyancy" --size 16x9 --frames 1 $wrong >/dev/null 2>message && code=0 || code=$?
     ((code == 1)) && (($(wc -l <message) == 1)) || die "'$wrong' ends with $code: $(cat message)"
 done
+"$buoyancy" b_#.ppm >/dev/null 2>message && die "a boat from nowhere"
+grep -q 'scenes/models/hull.ply: No such file or directory; --mesh PLY' message || die "without a boat: $(cat message)"
 
 "$buoyancy" --mesh "$source/scenes/models/hull.ply" --size 96x54 --frames 12 --fps 1 'boat_##.ppm' >motion
 cat motion
