@@ -13,6 +13,16 @@ static mgt_status check_backend(mgt_context *context, const char *function)
     return report_error(&context->report, MGT_ERROR_UNAVAILABLE, "gl.context", "%s needs a context of the OpenGL backend", function);
 }
 
+/* Members without a meaning yet: what they hold could mean something to a later version. */
+static mgt_status check_reserved(const reporter *r, const char *id, const char *what, size_t index, const void *member, size_t size)
+{
+    const uint8_t *bytes = member;
+    for (size_t i = 0; i < size; i++)
+        if (bytes[i])
+            return report_error(r, MGT_ERROR_ARGUMENT, id, "%s %zu: byte %zu of reserved is %u; allowed is 0", what, index, i, bytes[i]);
+    return MGT_OK;
+}
+
 static mgt_status render_textures(mgt_context *context, const mgt_scene *scene, const mgt_gl_texture *textures, size_t count)
 {
     mgt_status status = check_backend(context, "mgt_gl_render_textures");
@@ -24,6 +34,8 @@ static mgt_status render_textures(mgt_context *context, const mgt_scene *scene, 
     status = scene_take(r, &own, scene);
     if (status == MGT_OK)
         status = struct_take(r, &gl_texture_kind, own_textures, textures, count);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        status = check_reserved(r, "render.texture", "texture", i, &own_textures[i].reserved, sizeof own_textures[i].reserved);
     for (size_t i = 0; i < count && status == MGT_OK; i++)
         if (((int)own_textures[i].layer < 0 || (int)own_textures[i].layer > MGT_LAYER_DETAIL) && own_textures[i].layer != MGT_LAYER_FOAM)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.texture", "texture %zu: layer %d does not exist", i, (int)own_textures[i].layer);
@@ -77,6 +89,8 @@ static mgt_status render_views(mgt_context *context, const mgt_scene *scene, con
     status = struct_take(r, &scene_kind, &own, scene, 1);
     if (status == MGT_OK)
         status = struct_take(r, &gl_view_kind, own_views, views, count);
+    for (size_t i = 0; i < count && status == MGT_OK; i++)
+        status = check_reserved(r, "render.view", "view", i, own_views[i].reserved, sizeof own_views[i].reserved);
     for (size_t i = 0; i < count && status == MGT_OK; i++)
         if ((int)own_views[i].color < 0 || (int)own_views[i].color > MGT_GL_COLOR_DISPLAY)
             status = report_error(r, MGT_ERROR_ARGUMENT, "render.view", "view %zu: color is %d, which names no kind of colour", i, (int)own_views[i].color);

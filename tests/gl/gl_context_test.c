@@ -615,8 +615,9 @@ static void wrong_textures_are_refused(void **state)
     mgt_wave waves[SEA_WAVES];
     mgt_scene scene = sea_scene(waves);
     mgt_gl_texture good = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA16F, SEA_WIDTH, SEA_HEIGHT);
-    mgt_gl_texture changed[8];
-    for (size_t i = 0; i < 8; i++)
+    enum { WRONG = 9 };
+    mgt_gl_texture changed[WRONG];
+    for (size_t i = 0; i < WRONG; i++)
         changed[i] = good;
     changed[0].layer = MGT_LAYER_DEPTH;
     changed[1].level = 1;
@@ -626,7 +627,8 @@ static void wrong_textures_are_refused(void **state)
     changed[5].layer = MGT_LAYER_REFRACTION_ERROR;
     changed[6] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32UI, SEA_WIDTH, SEA_HEIGHT);
     changed[7] = host_texture(&h, MGT_LAYER_COLOR, GL_RGBA32F, SEA_WIDTH, SEA_HEIGHT + 1);
-    for (size_t i = 0; i < 8; i++) {
+    changed[8].reserved = 1;
+    for (size_t i = 0; i < WRONG; i++) {
         assert_int_equal(mgt_gl_render_textures(context, &scene, &changed[i], 1), MGT_ERROR_ARGUMENT);
         assert_non_null(strstr(mgt_last_error(context), "texture 0"));
     }

@@ -754,6 +754,12 @@ static void wrong_views_are_refused(void **state)
     v = good;
     v.struct_size = 3;
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "an unknown size of struct");
+    for (size_t i = 0; i < sizeof v.reserved; i++) {
+        v = good;
+        v.reserved[i] = 1;
+        expect_refused(&e, v, MGT_ERROR_ARGUMENT, "a member without a meaning");
+        assert_non_null(strstr(mgt_last_error(e.mangata), "of reserved is 1; allowed is 0"));
+    }
     v = good;
     v.projection[11] = 0, v.projection[15] = 1;
     expect_refused(&e, v, MGT_ERROR_ARGUMENT, "an orthographic projection");
