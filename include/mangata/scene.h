@@ -118,8 +118,8 @@ typedef struct mgt_method_properties {
     uint32_t layers;   /* bits 1 << mgt_layer that it computes; the others are written as constants */
 } mgt_method_properties;
 
-/* Fills `properties`; `size` is sizeof *properties, which becomes its struct_size. MGT_ERROR_ARGUMENT: the library knows no such method. Methods are
- * numbered from 0 without gaps. Any thread. */
+/* Fills `properties`; `size` is sizeof *properties, which becomes its struct_size. MGT_ERROR_ARGUMENT, with nothing written: the library knows no such method,
+ * or no version of the struct has that size. Methods are numbered from 0 without gaps. Any thread. */
 MGT_API mgt_status mgt_method_info(mgt_method method, mgt_method_properties *properties, size_t size);
 
 /* How objects on the other side of the surface are found. docs/refraction.md says which paper each one follows. */

@@ -168,9 +168,13 @@ mgt_status struct_take(const reporter *r, const struct_kind *kind, void *own, co
 
 mgt_status struct_give(const reporter *r, const struct_kind *kind, const void *own, void *theirs)
 {
+    return struct_give_sized(r, kind, own, theirs, theirs ? *(const size_t *)theirs : 0);
+}
+
+mgt_status struct_give_sized(const reporter *r, const struct_kind *kind, const void *own, void *theirs, size_t size)
+{
     if (!theirs)
         return report_error(r, MGT_ERROR_ARGUMENT, kind->id, "the %s to fill is NULL", kind->name);
-    const size_t size = *(const size_t *)theirs;
     const mgt_status status = check_size(r, kind, 0, size);
     if (status == MGT_OK) {
         fill(theirs, size, own, kind->size);

@@ -29,6 +29,9 @@ mgt_status struct_take(const reporter *r, const struct_kind *kind, void *own, co
 /* Copies as much of `own` to a caller's struct as its size, which the caller has set, has room for. */
 mgt_status struct_give(const reporter *r, const struct_kind *kind, const void *own, void *theirs);
 
+/* As struct_give(), for a struct whose size stands beside it; the struct gets this size. Where the size is wrong nothing is written. */
+mgt_status struct_give_sized(const reporter *r, const struct_kind *kind, const void *own, void *theirs, size_t size);
+
 /* Copies a scene of the caller and checks the copy. */
 mgt_status scene_take(const reporter *r, mgt_scene *own, const mgt_scene *theirs);
 /* Copies targets of the caller and checks the copies. `scene` is valid. */

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -60,6 +61,17 @@ static void rows_are_public(void **state)
     assert_int_equal(mgt_method_info((mgt_method)method_count, &p, sizeof p), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_method_info((mgt_method)-1, &p, sizeof p), MGT_ERROR_ARGUMENT);
     assert_int_equal(mgt_method_info(MGT_METHOD_NONE, NULL, sizeof p), MGT_ERROR_ARGUMENT);
+    /* Sizes that are no version's: refused as in other calls, with nothing written. */
+    static const size_t sizes[] = {0, 4, sizeof(size_t), sizeof p - 1, sizeof p + 4096, SIZE_MAX};
+    const mgt_method_properties before = p;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char text[120];
+        assert_int_equal(mgt_method_info(MGT_METHOD_NONE, &p, sizes[i]), MGT_ERROR_ARGUMENT);
+        snprintf(text, sizeof text, "mgt_method_properties 0: struct_size is %zu; this library knows %zu to %zu", sizes[i],
+                 offsetof(mgt_method_properties, layers) + sizeof p.layers, sizeof p);
+        assert_string_equal(mgt_last_error(NULL), text);
+        assert_memory_equal(&p, &before, sizeof p);
+    }
     /* A caller that was built with a larger struct. */
     struct {
         mgt_method_properties known;
