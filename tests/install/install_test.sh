@@ -126,4 +126,6 @@ END
 cmp "$work/a.ppm" "$work/b.ppm" || die "two builds of the example differ"
 "$work/user/build/user_static" "$work/c.ppm"
 cmp "$work/a.ppm" "$work/c.ppm" || die "the static build of the example differs"
+# What the static library needs is named, not a file of one version of it, which another system may not have.
+! grep -nE 'lib[a-z0-9_]+\.(so|a)\.[0-9]' "$folder/cmake/mangata/mangata-config.cmake" || die "the CMake package names the file of one version"
 ! "$work/user/build/user" "$work/no/such/folder.ppm" || die "the example hides a failure"
