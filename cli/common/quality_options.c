@@ -84,7 +84,7 @@ bool quality_option_set(quality_options *options, const char *name, size_t lengt
         return false;
     if (quality_choose(&options->choice, field, value)) {
         if (field == quality_fields)
-            options->number_in_name = method_of(options->choice.values.method)->numbered && value[strcspn(value, "0123456789")];
+            options->number_in_name = method_name_has_number(value);
         return true;
     }
     field_allowed(field, allowed, sizeof allowed);

@@ -171,7 +171,7 @@ def render(
     if size is not None:
         given["image.width"], given["image.height"] = int(size[0]), int(size[1])
     if method is not None:
-        # The scene format has the number of ssaaN as a key of its own.
+        # The number replaces the scene's own key `spatial`, which may not stand beside ssaaN.
         number = re.fullmatch(r"ssaa([0-9]+)", method)
         given["quality.method"] = "ssaa" if number else method
         if number and "spatial" in options:

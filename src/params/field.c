@@ -422,3 +422,11 @@ void field_allowed(const field_row *field, char *out, size_t size)
         break;
     }
 }
+
+void field_allowed_text(const field_row *field, char *out, size_t size)
+{
+    field_allowed(field, out, size);
+    const size_t used = strlen(out);
+    if (field->also != NULL)
+        snprintf(out + used, size - used, ", or %s", field->also->words);
+}

@@ -64,6 +64,14 @@ typedef struct name_alias {
     const char *alias, *name;
 } name_alias;
 
+/* Other texts than its choices that a choice may be written as. They decide of its neighbours, too: field_row.decide is not called after them. */
+typedef struct field_spelling {
+    const char *words;   /* for messages: "ssaaN (N from 1 to 1024)" */
+    const char *pattern; /* the same as a regular expression, for the schema */
+    /* Reads these and the choices into the parent's struct. False, with nothing written, where the text is none of them. */
+    bool (*read)(const char *text, void *parent);
+} field_spelling;
+
 typedef struct field_row field_row;
 
 /* Another form in which a list's items may be written: a struct with rows of its own, from which an item is made. */
@@ -90,6 +98,7 @@ struct field_row {
     double preset;               /* options: the default */
     const char *alias;           /* newer key that is read like `key`; a file may have one of both; NULL: none. Required rows have none */
     const name_alias *aliases;   /* newer names of choices; NULL: none */
+    const field_spelling *also;  /* choices: other texts that are read; NULL: none */
     const char *absent;          /* options: text of the default for the help; NULL: it is `preset` */
     const char *member;          /* options: name in the API; NULL: the key */
     const char *label;           /* options: name of the value in the help; NULL: by type */
@@ -111,6 +120,9 @@ const char *name_first(const name_alias *aliases, const char *word);
 
 /* Writes the allowed values for a message: "a number, -90 to 90 degrees", "one of sun, moon". The text is cut to `size`. */
 void field_allowed(const field_row *field, char *out, size_t size);
+
+/* As field_allowed(), for values that are read from text, where a choice may have other spellings. */
+void field_allowed_text(const field_row *field, char *out, size_t size);
 
 bool field_in_range(const field_row *field, double value);
 

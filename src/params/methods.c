@@ -154,8 +154,6 @@ uint64_t quality_range(const mgt_quality *q)
     return method_is_sampled(q->method) ? quality_samples(q) : 0;
 }
 
-enum { MOST_STRATA = 1024 };
-
 /* The number behind the name of a numbered row, which has `length` characters: 4 of "ssaa4"; 0: there is no legal number. */
 static uint32_t number_behind(const char *name, size_t length)
 {
@@ -164,7 +162,7 @@ static uint32_t number_behind(const char *name, size_t length)
     if (count == 0 || digits[count])
         return 0;
     const unsigned long number = strtoul(digits, NULL, 10);
-    return number <= MOST_STRATA ? (uint32_t)number : 0;
+    return number <= METHOD_SIDE_MOST ? (uint32_t)number : 0;
 }
 
 bool method_from_name(const char *name, mgt_quality *quality)
@@ -186,6 +184,12 @@ bool method_from_name(const char *name, mgt_quality *quality)
     return false;
 }
 
+bool method_name_has_number(const char *name)
+{
+    mgt_quality quality;
+    return method_from_name(name, &quality) && method_rows[quality.method].numbered && strcmp(name, method_rows[quality.method].properties.name) != 0;
+}
+
 method_text method_name(const mgt_quality *quality)
 {
     const method_row *row = &method_rows[quality->method];
@@ -202,7 +206,7 @@ method_names_text method_names(void)
     method_names_text out;
     size_t used = 0;
     char numbers[40];
-    snprintf(numbers, sizeof numbers, "N (N from 1 to %d)", MOST_STRATA);
+    snprintf(numbers, sizeof numbers, "N (N from 1 to %d)", METHOD_SIDE_MOST);
     for (size_t i = 0; i < method_count; i++)
         used += (size_t)snprintf(out.text + used, sizeof out.text - used, "%s%s%s", i ? ", " : "", method_rows[i].properties.name,
                                  method_rows[i].numbered ? numbers : "");

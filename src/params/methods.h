@@ -57,10 +57,13 @@ uint64_t quality_samples(const mgt_quality *quality);
  * method has neither ranges nor sums. */
 uint64_t quality_range(const mgt_quality *quality);
 
-enum { METHOD_SIDE_DEFAULT = 4 }; /* strata along a pixel's side of "ssaa" */
+enum { METHOD_SIDE_DEFAULT = 4, METHOD_SIDE_MOST = 1024 }; /* strata along a pixel's side of "ssaa", and the most of "ssaaN" */
 
 /* Sets the method and its default numbers of samples by a name such as "mangata" or "ssaa4"; "ssaa" is "ssaa4". False: there is no such method. */
 bool method_from_name(const char *name, mgt_quality *quality);
+
+/* Whether a legal name says the number of strata, as "ssaa4" does and "ssaa" does not. */
+bool method_name_has_number(const char *name);
 
 typedef struct method_text {
     char text[24];

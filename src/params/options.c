@@ -23,6 +23,21 @@ static void decide_method(void *parent)
     q->time_samples = row->time ? row->time : 1;
 }
 
+static bool read_method(const char *text, void *parent)
+{
+    mgt_quality *q = parent, named;
+    if (!method_from_name(text, &named))
+        return false;
+    q->method = named.method;
+    decide_method(q);
+    if (method_of(q->method)->numbered)
+        q->spatial_samples = named.spatial_samples;
+    return true;
+}
+
+static const field_spelling numbered_methods = {"ssaaN (N from 1 to 1024)", "^ssaa0*([1-9][0-9]{0,2}|10[01][0-9]|102[0-4])$", read_method};
+static_assert(METHOD_SIDE_MOST == 1024, "the texts above and the range of spatial say so");
+
 #define MEMBER(name) offsetof(mgt_quality, name)
 #define LARGEST 18446744073709551615.0
 #define ONE(place) (UINT64_C(1) << (place))
@@ -39,8 +54,9 @@ enum { HOW_MUCH = 1 }; /* field_row.alternative of options that say how much to 
 
 const field_row quality_fields[] =
     {{"method", FIELD_CHOICE, MEMBER(method), FIELD_NO_FLAG, .doc = "how waves smaller than a pixel and the open shutter are averaged",
-      .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row), .preset = MGT_METHOD_MANGATA, .label = "NAME", .decide = decide_method},
-     {"spatial", FIELD_COUNT, MEMBER(spatial_samples), 0, 1, 1024, NULL, .doc = "N of N x N samples a pixel for each time sample", .preset = 4,
+      .choices = &method_rows[0].properties.name, .choice_stride = sizeof(method_row), .preset = MGT_METHOD_MANGATA, .label = "NAME", .also = &numbered_methods,
+      .decide = decide_method},
+     {"spatial", FIELD_COUNT, MEMBER(spatial_samples), 0, 1, METHOD_SIDE_MOST, NULL, .doc = "N of N x N samples a pixel for each time sample", .preset = 4,
       .absent = "8 for reference, 4 for ssaa", .member = "spatial_samples", .when = {{SAMPLED}}},
      {"time_samples", FIELD_COUNT, MEMBER(time_samples), 0, 1, 65536, NULL, .doc = "samples of the open shutter", .preset = 1,
       .absent = "8 for reference, 1 for ssaa", .label = "M", .when = {{SAMPLED}}},

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "params/methods.h"
 #include "params/options.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
@@ -151,6 +152,20 @@ static bool check_exposure(const scene_tree *tree, const scene_values *values, s
                       "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto");
 }
 
+/* The number stands once: in the method's name or beside it. Where --set has changed the number beside the name, that one counts. */
+static bool check_number(const scene_tree *tree, scene_error *error)
+{
+    const tree_node *quality = tree_get(tree->root, "quality"), *method = tree_get(quality, "method"), *spatial = tree_get(quality, "spatial");
+    if (method == NULL || spatial == NULL || !method_name_has_number(method->text))
+        return true;
+    if (overridden(spatial) != NULL && overridden(method) == NULL)
+        return true;
+    const tree_node *blamed = overridden(spatial) == NULL && overridden(method) != NULL ? method : spatial;
+    return tree_error(tree, blamed->source, blamed->place, error,
+                      "quality.spatial stands beside the method %s, which says the number already; allowed: one of them, ssaaN or ssaa with spatial: N",
+                      method->text);
+}
+
 static bool check_quality(const scene_tree *tree, const mgt_quality *quality, scene_error *error)
 {
     char wrong[160];
@@ -175,5 +190,5 @@ bool scene_check(const scene_tree *tree, const scene_values *values, scene_error
            (moves ? check_keyframes(tree, &values->camera, path, error) && check_path(tree, values, path, error)
                   : check_still_camera(tree, &values->camera, error)) &&
            check_wind(tree, &values->water, error) && check_foam(tree, &values->water, error) && check_exposure(tree, values, error) &&
-           check_quality(tree, &values->quality, error);
+           check_number(tree, error) && check_quality(tree, &values->quality, error);
 }

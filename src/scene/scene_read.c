@@ -24,7 +24,7 @@ static bool refuse_value(const scene_reader *reader, const field_row *field, con
 {
     char allowed[240], value[128];
     scene_quote quote = scene_quote_text(node->text != NULL ? node->text : "", node->length);
-    field_allowed(field, allowed, sizeof allowed);
+    field_allowed_text(field, allowed, sizeof allowed);
     switch (node->kind) {
     case TREE_NULL:
         snprintf(value, sizeof value, "empty");
@@ -261,6 +261,8 @@ static bool read_field(scene_reader *reader, const field_row *field, const tree_
     case FIELD_FLOAT:
     case FIELD_CHOICE:
     case FIELD_SWITCH:
+        if (field->also != NULL)
+            return (node->kind == TREE_SCALAR && field->also->read(node->text, parent)) || refuse_value(reader, field, node);
         return read_single(reader, field, node, place);
     case FIELD_COLOR:
         if (!read_vector(reader, field, node, vector))
@@ -330,7 +332,7 @@ static bool read_mapping(scene_reader *reader, const field_row *mapping, const t
         if (found[i] != NULL) {
             if (!read_field(reader, field, found[i], values))
                 return false;
-            if (field->decide != NULL)
+            if (field->decide != NULL && field->also == NULL)
                 field->decide(values);
         }
         path_leave(reader, length);

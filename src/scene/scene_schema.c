@@ -151,6 +151,7 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
         break;
     case FIELD_CHOICE:
     case FIELD_SWITCH:
+        fputs(field->also != NULL ? "\"anyOf\": [{" : "", stream);
         for (int i = 0; field_word(field, i) != NULL; i++) {
             fprintf(stream, "%s\"%s\"", i == 0 ? "\"enum\": [" : ", ", field_word(field, i));
             if (field_word_alias(field, i))
@@ -159,6 +160,8 @@ static void write_type_schema(FILE *stream, const field_row *field, const void *
                 fprintf(stream, ", %s", field_word(field, i));
         }
         fputs(field->type == FIELD_SWITCH ? ", false, true]" : "]", stream);
+        if (field->also != NULL)
+            fprintf(stream, "}, {\"type\": \"string\", \"pattern\": \"%s\"}]", field->also->pattern);
         break;
     case FIELD_EXPOSURE:
         fputs("\"oneOf\": [{\"const\": \"auto\"}, ", stream);
@@ -306,7 +309,7 @@ static void write_table(FILE *stream, const char *path, const field_row *mapping
             write_table(stream, name, field, value);
             continue;
         }
-        field_allowed(field, allowed, sizeof allowed);
+        field_allowed_text(field, allowed, sizeof allowed);
         fprintf(stream, "| `%s` | %s | ", name, allowed);
         if (has_default(field)) {
             fputs("`", stream);

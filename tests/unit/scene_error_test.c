@@ -46,6 +46,11 @@ static void assert_error(scene_error error, scene_error_kind kind, const char *e
         fail_msg("kind %d: %s\n  expected kind %d: %s", (int)error.kind, error.text, (int)kind, expected);
 }
 
+#define NUMBER_TWICE "quality.spatial stands beside the method ssaa4, which says the number already; allowed: one of them, ssaaN or ssaa with spatial: N"
+#define METHODS                                                                                                                                             \
+    "one of none, ssaa, podee-uniform, podee-pixel, mangata, reference, msaa32, lean, leadr, tokuyoshi, bruneton, fxaa, taa, tndf, adaptive, ggx-moments, " \
+    "or ssaaN (N from 1 to 1024)"
+
 static void messages_say_what_where_and_what_is_allowed(void **state)
 {
     (void)state;
@@ -94,6 +99,13 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nlight: {source: sun, source: sun}\n", "s.yaml:2:22: key \"source\" stands twice, first at line 2, column 9; allowed: once"},
         {"mangata: 1\nquality: {method: podee-pixel, kernels: 9, mixture: 9}\n",
          "s.yaml:2:44: key \"mixture\" stands beside \"kernels\" at line 2, column 32; \"mixture\" is the new name of \"kernels\"; allowed: one of them"},
+        {"mangata: 1\nquality: {method: ssaa4, spatial: 4}\n", "s.yaml:2:35: " NUMBER_TWICE},
+        {"mangata: 1\nquality: {spatial: 3, method: ssaa4}\n", "s.yaml:2:20: " NUMBER_TWICE},
+        {"mangata: 1\nquality: {method: ssaa0}\n", "s.yaml:2:19: quality.method is ssaa0; allowed: " METHODS},
+        {"mangata: 1\nquality: {method: ssaa1025}\n", "s.yaml:2:19: quality.method is ssaa1025; allowed: " METHODS},
+        {"mangata: 1\nquality: {method: ssaa-4}\n", "s.yaml:2:19: quality.method is ssaa-4; allowed: " METHODS},
+        {"mangata: 1\nquality: {method: mangata4}\n", "s.yaml:2:19: quality.method is mangata4; allowed: " METHODS},
+        {"mangata: 1\nquality: {method: [ssaa4]}\n", "s.yaml:2:19: quality.method is a list of 1; allowed: " METHODS},
         {"mangata: 1\nlight: {sources: sun}\n",
          "s.yaml:2:9: unknown key \"sources\" in light; did you mean \"source\"? allowed: body, elevation_deg, azimuth_deg, "
          "angular_radius_deg, radiance"},
@@ -232,6 +244,8 @@ static void override_messages_name_the_option(void **state)
         {"camera.position=[0, 3.84, -0.987]", "camera: the camera looks at its own position; allowed: a target apart from position"},
     };
     static const char text[] = "mangata: 1\nlight: {body: sun}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
+    assert_error(refused("mangata: 1\nquality: {method: ssaa, spatial: 3}\n", "quality.method=ssaa4"), SCENE_ERROR_BAD_SCENE,
+                 "--set quality.method=ssaa4: " NUMBER_TWICE);
     for (size_t i = 0; i < COUNT(cases); i++) {
         char expected[512];
         snprintf(expected, sizeof expected, "--set %s: %s", cases[i].override, cases[i].message);

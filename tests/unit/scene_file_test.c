@@ -227,6 +227,35 @@ static void overrides_replace_add_and_append(void **state)
     scene_file_free(file);
 }
 
+/* Methods have the names of the command, and a number in the name is the number beside it. */
+static void methods_have_the_names_of_the_command(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *quality, *override;
+        mgt_method method;
+        uint32_t spatial, time;
+    } cases[] = {
+        {"{method: ssaa7}", NULL, MGT_METHOD_SSAA, 7, 1},
+        {"{method: \"ssaa1024\", time_samples: 3}", NULL, MGT_METHOD_SSAA, 1024, 3},
+        {"{method: ssaa}", NULL, MGT_METHOD_SSAA, 4, 1},
+        {"{spatial: 7, method: ssaa}", NULL, MGT_METHOD_SSAA, 7, 1},
+        {"{method: ssaa7}", "quality.spatial=3", MGT_METHOD_SSAA, 3, 1},
+        {"{method: none}", "quality.method=ssaa2", MGT_METHOD_SSAA, 2, 1},
+        {"{method: ssaa7}", "quality.method=reference", MGT_METHOD_REFERENCE, 8, 8},
+        {"{method: reference, spatial: 5}", NULL, MGT_METHOD_REFERENCE, 5, 8},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[128];
+        snprintf(text, sizeof text, "mangata: 1\nquality: %s\n", cases[i].quality);
+        scene_file *file = parse(text, &cases[i].override, cases[i].override != NULL ? 1 : 0);
+        const mgt_quality q = frame_of(file, 0).quality;
+        if (q.method != cases[i].method || q.spatial_samples != cases[i].spatial || q.time_samples != cases[i].time)
+            fail_msg("%s: %s with %u and %u samples", cases[i].quality, mgt_method_name(q.method), q.spatial_samples, q.time_samples);
+        scene_file_free(file);
+    }
+}
+
 static void camera_path_passes_its_keyframes(void **state)
 {
     (void)state;
@@ -455,6 +484,7 @@ int main(void)
         cmocka_unit_test(every_key_is_read),
         cmocka_unit_test(standard_scenes_load),
         cmocka_unit_test(unusual_scenes_are_legal),
+        cmocka_unit_test(methods_have_the_names_of_the_command),
         cmocka_unit_test(body_sets_the_defaults_of_the_light),
         cmocka_unit_test(overrides_replace_add_and_append),
         cmocka_unit_test(camera_path_passes_its_keyframes),
