@@ -69,6 +69,18 @@ static int frame_scene(const render_job *job, uint32_t frame, mgt_scene *scene)
     return EXIT_CODE_OK;
 }
 
+/* Frames behind the end of the film are rendered, for a scene may go on, but perhaps nobody meant them. A scene of one frame says nothing of a film, and that
+ * of --sea is as long as the command says. */
+static void note_end(const render_job *job)
+{
+    const render_request *r = job->request;
+    const uint32_t count = (uint32_t)scene_file_frame_count(job->scene);
+    if (count > 1 && job->last_frame >= count && strncmp(r->scene_path, "--", 2) != 0)
+        console_note(&r->out,
+                     "mangata: warning: %s: the film ends with frame %u (time.frames is %u), and --frames goes on to %u: waves move on, a camera's path rests",
+                     r->scene_path, count - 1, count, job->last_frame);
+}
+
 static int load_scene(render_job *job)
 {
     render_request *r = job->request;
@@ -91,6 +103,7 @@ static int load_scene(render_job *job)
     const int code = frame_scene(job, frame_list_at(&r->frames, 0), &first);
     if (code != EXIT_CODE_OK)
         return code;
+    job->last_frame = frame_list_at(&r->frames, frame_list_length(&r->frames) - 1);
     frame_list_shard(&r->frames, &r->shard);
     job->image = first.image;
     const mgt_image *i = &job->image;
@@ -504,6 +517,8 @@ static int run(render_job *job)
         code = check_stills(job);
     if (code == EXIT_CODE_OK && job->request->dry_run && render_is_film(job->request))
         code = render_film(job);
+    if (code == EXIT_CODE_OK)
+        note_end(job);
     if (code == EXIT_CODE_OK && job->request->dry_run)
         return report(job, seconds_now() - start);
     if (code == EXIT_CODE_OK && render_sums_wanted(job->request))

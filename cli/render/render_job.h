@@ -16,6 +16,7 @@ typedef struct render_job {
     frame_buffer buffer;
     render_crypto *crypto; /* NULL: not requested */
     mgt_image image;       /* size and crop of every frame */
+    uint32_t last_frame;   /* of the request, whichever shard has it */
     output_options output;
     progress progress;
     double before, share;        /* fractions of a frame's progress: before the current call into the library, and of that call */

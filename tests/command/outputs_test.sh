@@ -102,6 +102,14 @@ works render "$simple" -o 'plain%d.png' --frames 12 "${small[@]}" "${null[@]}" -
 exists plain12.png
 works render "$simple" -o '100%%.png' "${small[@]}" "${null[@]}" --quiet
 exists '100%.png'
+# Frames behind the film's end are told once; a scene of one frame and one from the wind state no end.
+expect 0 '^mangata: warning: .*simple.json: the film ends with frame 59 \(time.frames is 60\), and --frames goes on to 61' \
+    render "$simple" -o 'late_%d.png' --frames 58-61 "${small[@]}" "${null[@]}"
+(($(grep -c warning stderr.txt) == 1)) || fail "the end is told $(grep -c warning stderr.txt) times"
+for words in "$simple --frames 58-59" "$simple --frames 61 --quiet" "$simple --frames 7 --set time.frames=1" "--sea wind=5 --frames 99"; do
+    expect 0 '' render $words -o 'early_%d.png' "${small[@]}" "${null[@]}"
+    ! grep warning stderr.txt || fail "$words warns"
+done
 mkdir 'dir%s#'
 works render "$simple" -o 'dir%s#/x.png' "${small[@]}" "${null[@]}" --quiet
 exists 'dir%s#/x.png'
