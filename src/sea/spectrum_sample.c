@@ -201,9 +201,20 @@ static mgt_wave make_wave(const wave_spectrum *spectrum, double height_variance,
                      seven_digits(-frequency), seven_digits(phase));
 }
 
+/* The share of a wave's directions below its own. A sea of few waves runs with the wind: the first, the longest, right along it, the others in the middles of
+ * equal shares. Of more waves neighbours run apart, by the golden ratio from a start. */
+static double direction_share(double start, size_t index, size_t count)
+{
+    enum { FEW_WAVES = 4 };
+    const double golden = 0.61803398874989484820;
+    if (count <= FEW_WAVES)
+        return index == 0 ? 0.5 : ((double)index - 0.5) / ((double)count - 1);
+    const double turns = start + golden * (double)index;
+    return turns - floor(turns);
+}
+
 bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count, mgt_wave *waves)
 {
-    const double golden = 0.61803398874989484820;
     frequency_grid *grid = make_grid(spectrum, count > CELL_WAVES ? FINE_CELLS : CELLS);
     if (grid == NULL)
         return false;
@@ -221,8 +232,7 @@ bool spectrum_sample(const wave_spectrum *spectrum, uint32_t seed, size_t count,
         const double height = grid->height[cell] + part * height_step, slope = grid->slope[cell] + part * slope_step;
         const double rest = grid->rest[cell] - part * (grid->rest[cell] - grid->rest[cell + 1]);
         const double variance = height - height_before < CANCELLED * height ? rest_before - rest : height - height_before;
-        const double turns = start + golden * (double)i;
-        waves[i] = make_wave(spectrum, variance, slope - slope_before, turns - floor(turns), 2 * SPECTRUM_PI * uniform(seed, i + 1));
+        waves[i] = make_wave(spectrum, variance, slope - slope_before, direction_share(start, i, count), 2 * SPECTRUM_PI * uniform(seed, i + 1));
         height_before = height;
         slope_before = slope;
         rest_before = rest;

@@ -6,7 +6,8 @@
  * and one quarter relative variance of height. Slopes have the greater weight because glitter depends on them; height has some so that the longest waves do not
  * become a single one. The wave of a stratum has the stratum's variance, A² / 2, and its mean-square slope. So any number of waves has exactly the spectrum's
  * variances of height and slope. Directions: quantiles of the spreading at the wave's frequency, at multiples of the golden ratio from a start by the seed, so
- * that waves of neighbouring frequencies have different directions. Phases: uniform, by the seed. Values are rounded to seven digits.
+ * that waves of neighbouring frequencies have different directions. Of up to four waves the longest runs with the wind, and the others lie evenly around it.
+ * Phases: uniform, by the seed. Values are rounded to seven digits.
  */
 #ifndef MANGATA_SEA_SPECTRUM_SAMPLE_H
 #define MANGATA_SEA_SPECTRUM_SAMPLE_H

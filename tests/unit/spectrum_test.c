@@ -281,6 +281,34 @@ static void waves_run_with_the_wind(void **state)
     }
 }
 
+/* Whatever the seed: the longest wave right along the wind, and all together. */
+static void few_waves_run_with_the_wind(void **state)
+{
+    (void)state;
+    static const spectrum_kind kinds[] = {SPECTRUM_PIERSON_MOSKOWITZ, SPECTRUM_JONSWAP, SPECTRUM_ELFOUHAILY};
+    mgt_wave waves[4];
+    for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++)
+        for (size_t count = 1; count <= 4; count++)
+            for (uint32_t seed = 0; seed < 5; seed++) {
+                spectrum_settings settings = settings_of(kinds[kind], 8);
+                settings.direction_deg = 30.0 * (double)seed;
+                const wave_spectrum s = make(&settings);
+                assert_true(spectrum_sample(&s, seed, count, waves));
+                const double x = portable_sin(s.downwind), z = -portable_cos(s.downwind);
+                double along = 0, across = 0;
+                for (size_t w = 0; w < count; w++) {
+                    const double k = hypot(waves[w].kx, waves[w].kz), cosine = (waves[w].kx * x + waves[w].kz * z) / k;
+                    const double sine = (waves[w].kx * z - waves[w].kz * x) / k;
+                    if (w == 0 && !(cosine > 1 - 1e-12))
+                        fail_msg("kind %zu, %zu waves, seed %u: the longest wave runs at a cosine of %.17g to the wind", kind, count, seed, cosine);
+                    along += cosine;
+                    across += sine;
+                }
+                if (!(along > 0.4 * (double)count && fabs(across) < 0.2 * along))
+                    fail_msg("kind %zu, %zu waves, seed %u: %g along the wind, %g across it", kind, count, seed, along, across);
+            }
+}
+
 static void seeds_make_other_seas_of_the_same_kind(void **state)
 {
     (void)state;
@@ -547,6 +575,7 @@ int main(void)
         cmocka_unit_test(spreadings_are_the_published_ones),
         cmocka_unit_test(waves_have_the_variances_of_their_spectrum),
         cmocka_unit_test(waves_run_with_the_wind),
+        cmocka_unit_test(few_waves_run_with_the_wind),
         cmocka_unit_test(seeds_make_other_seas_of_the_same_kind),
         cmocka_unit_test(cox_and_munk_are_met),
         cmocka_unit_test(short_waves_of_a_high_sea_are_no_noise),
