@@ -37,6 +37,19 @@ static mgt_status check_answers(const reporter *r, const mgt_water_answers *answ
     return MGT_OK;
 }
 
+/* Checks the coordinates of `count` places: the first `size` of every `stride` numbers. One that is not finite is answered by NaN. */
+static mgt_status check_places(const reporter *r, const char *what, const double *places, size_t count, size_t stride, size_t size)
+{
+    const double most = 1e9;
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < size; c++) {
+            const double at = places[i * stride + c];
+            if (fabs(at) > most && isfinite(at))
+                return report_error(r, MGT_ERROR_ARGUMENT, "query.places", "%s %zu: coordinate %zu is %g m; allowed is -1e9 to 1e9", what, i, c, at);
+        }
+    return MGT_OK;
+}
+
 /* The answers with pointers to those of point `first` and the next ones. */
 static mgt_water_answers answers_from(const mgt_water_answers *all, size_t first)
 {
@@ -137,6 +150,8 @@ mgt_status mgt_water_query(const mgt_water *water, double time, const double *po
         status = check_water(&r, "mgt_water_query", water, time);
     if (status == MGT_OK && count > 0 && !points)
         status = report_error(&r, MGT_ERROR_ARGUMENT, "query.points", "mgt_water_query: the list of points is NULL");
+    if (status == MGT_OK)
+        status = check_places(&r, "mgt_water_query: point", points, count, 2, 2);
     if (status != MGT_OK)
         return status;
     answer(&(question){.water = water, .time = time, .points = points, .answers = &own, .count = count});
@@ -146,14 +161,15 @@ mgt_status mgt_water_query(const mgt_water *water, double time, const double *po
 mgt_status mgt_water_trace(const mgt_water *water, double time, const double *rays, size_t count, double reach, double *distance)
 {
     const reporter r = creation_reporter();
-    const mgt_status status = check_water(&r, "mgt_water_trace", water, time);
+    mgt_status status = check_water(&r, "mgt_water_trace", water, time);
     if (status != MGT_OK)
         return status;
     if (count > 0 && (!rays || !distance))
         return report_error(&r, MGT_ERROR_ARGUMENT, "query.rays", "mgt_water_trace: the list of %s is NULL", rays ? "distances" : "rays");
     if (!(reach >= 0 && reach <= 1e9))
         return report_error(&r, MGT_ERROR_ARGUMENT, "query.reach", "mgt_water_trace: reach is %g; allowed is 0 to 1e9", reach);
-    if (count > 0)
+    status = check_places(&r, "mgt_water_trace: origin", rays, count, 6, 3);
+    if (status == MGT_OK && count > 0)
         answer(&(question){.water = water, .time = time, .rays = rays, .count = count, .reach = reach, .distance = distance});
-    return MGT_OK;
+    return status;
 }

@@ -404,6 +404,12 @@ static void odd_rays_end(void **state)
     assert_int_equal(mgt_water_trace(&flat, 0, rays, 1, -1, distance), MGT_ERROR_ARGUMENT);
     assert_non_null(strstr(mgt_last_error(NULL), "reach is -1"));
     assert_int_equal(mgt_water_trace(&flat, 0, NULL, 1, 1, distance), MGT_ERROR_ARGUMENT);
+    const double far[] = {0, 9, 0, 0, -1, 0, 0, 9, 2e9, 0, -1, 0};
+    distance[0] = -5;
+    assert_int_equal(mgt_water_trace(&flat, 0, far, 2, 100, distance), MGT_ERROR_ARGUMENT);
+    assert_non_null(strstr(mgt_last_error(NULL), "mgt_water_trace: origin 1: coordinate 2 is 2e+09 m"));
+    assert_true(distance[0] == -5);
+    assert_int_equal(mgt_water_trace(&flat, 0, far, 1, 100, distance), MGT_OK);
     assert_int_equal(mgt_water_trace(NULL, 0, rays, 1, 1, distance), MGT_ERROR_ARGUMENT);
 }
 
@@ -429,6 +435,10 @@ static void bad_questions_are_refused(void **state)
     expect_refused(&water, 0, NULL, a, MGT_ERROR_ARGUMENT, "the list of points is NULL");
     expect_refused(&water, (double)NAN, point, a, MGT_ERROR_ARGUMENT, "the time is nan s");
     expect_refused(&water, 2e9, point, a, MGT_ERROR_ARGUMENT, "allowed is -1e9 to 1e9");
+    static const double far[][2] = {{1.001e9, 0}, {0, -2e9}, {-1e300, 1}, {(double)NAN, 1e10}};
+    for (size_t i = 0; i < sizeof far / sizeof *far; i++)
+        expect_refused(&water, 0, far[i], a, MGT_ERROR_ARGUMENT, "m; allowed is -1e9 to 1e9");
+    expect_refused(&water, 0, far[1], a, MGT_ERROR_ARGUMENT, "mgt_water_query: point 0: coordinate 1 is -2e+09 m");
     mgt_water_answers wrong = a;
     wrong.least_wavelength = -1;
     expect_refused(&water, 0, point, wrong, MGT_ERROR_ARGUMENT, "least_wavelength is -1 m");
