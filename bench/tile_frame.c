@@ -15,7 +15,7 @@ tile_frame *tile_frame_create(const mgt_scene *scene)
         tile_frame_free(f);
         return NULL;
     }
-    f->frame = frame_of(scene, f->sky, true);
+    frame_make(scene, f->sky, true, &f->frame);
     frame_waves_build(&f->frame, f->waves);
     f->columns = (scene->image.width + TILE_WIDTH - 1) / TILE_WIDTH;
     f->rows = (scene->image.height + TILE_HEIGHT - 1) / TILE_HEIGHT;

@@ -17,6 +17,7 @@
  *               failure no object has changed; pixels of the targets may have been written in part.
  *   Threads     a context is used by one thread at a time; different contexts are independent. A call that renders, inspects or sums with a
  *               context whose earlier call still runs, on another thread or around a callback, returns MGT_ERROR_ARGUMENT and does nothing.
+ *   Stack       a call needs at most 0.5 MiB of its thread's stack, a query of more than 512 waves 0.7; drivers of OpenGL need theirs.
  *   Determinism the pixels depend on the scene alone: not on threads, tiles, crop, instruction set (AVX2,
  *               AVX-512 and the scalar build agree to the bit) or what was rendered before.
  */

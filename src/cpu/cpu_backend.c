@@ -150,7 +150,7 @@ static mgt_status cpu_create(void **state, const mgt_context_desc *desc, const r
 typedef struct render_job {
     cpu_state *state;
     const mgt_scene *scene;
-    frame frame;
+    frame *frame; /* the state's */
     tile_job tiles;
     tile_wants wants;
     region area; /* region that is rendered: the crop, or the whole image if there is glare */
@@ -262,7 +262,7 @@ static void write_block(const render_job *job, const region *block, const pixel_
             } else if (!job->radiance) {
                 float rgb[3 * TILE_WIDTH];
                 write_pixels(p->color, p->color_step, first, x1 - x0, 3, rgb);
-                job->state->kernels->display(&job->frame.data, rgb, (uint8_t *)row, x1 - x0);
+                job->state->kernels->display(&job->frame->data, rgb, (uint8_t *)row, x1 - x0);
             }
         }
 }
@@ -361,7 +361,7 @@ static void render_reference_block(void *argument, size_t index, uint32_t worker
     float color[REFERENCE_PIXELS * 3], coverage[REFERENCE_PIXELS], mask[REFERENCE_PIXELS], foam[REFERENCE_PIXELS], depth[REFERENCE_PIXELS],
         normal[REFERENCE_PIXELS * 3];
     const bool pixels = job->wants.pixels, surface = job->wants.surface;
-    const reference_result result = {.color = pixels && job->frame.data.want_color ? color : NULL,
+    const reference_result result = {.color = pixels && job->frame->data.want_color ? color : NULL,
                                      .coverage = pixels ? coverage : NULL,
                                      .mask = pixels ? mask : NULL,
                                      .foam = pixels ? foam : NULL,
@@ -450,7 +450,7 @@ static mgt_status make_reference(render_job *job, const reporter *r)
     const sky_state *sky = job->state->sky;
     reference_sky rs = {.lookup = job->scene->sky.model == MGT_SKY_BLACK ? NULL : reference_lookup,
                         .air = sky_state_has_air(job->scene) ? reference_air : NULL,
-                        .stars = job->frame.data.stars ? reference_stars : NULL,
+                        .stars = job->frame->data.stars ? reference_stars : NULL,
                         .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
     for (int i = 0; i < lights_count(sky->lights); i++)
@@ -471,7 +471,7 @@ static void display_row(void *argument, size_t row, uint32_t worker)
     const float *rgb = job->radiance + (y * job->area.width + job->crop.x - job->area.x) * 3;
     for (size_t k = 0; k < job->target_count; k++)
         if (job->targets[k].format == MGT_FORMAT_RGBA8_SRGB)
-            job->state->kernels->display(&job->frame.data, rgb, target_row(&job->targets[k], &job->crop, (uint32_t)row), job->crop.width);
+            job->state->kernels->display(&job->frame->data, rgb, target_row(&job->targets[k], &job->crop, (uint32_t)row), job->crop.width);
 }
 
 static mgt_status display(render_job *job, const reporter *r)
@@ -544,11 +544,11 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
     status = prepare_podee(s, r, scene);
     if (status != MGT_OK)
         return status;
-    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass, .sums = sums};
-    job.frame = frame_of(scene, s->sky, sums.add || wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR));
+    render_job job = {.state = s, .scene = scene, .targets = targets, .target_count = count, .pass = pass, .sums = sums, .frame = &s->frame};
+    frame_make(scene, s->sky, sums.add || wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_COLOR), job.frame);
     if (pass)
-        job.frame.close = rays_above(&job.frame, &pass->camera);
-    status = prepare_lean(s, r, &job.frame);
+        job.frame->close = rays_above(job.frame, &pass->camera);
+    status = prepare_lean(s, r, job.frame);
     if (status != MGT_OK)
         return status;
     job.wants.pixels = sums.add || wants_layer(targets, count, MGT_LAYER_COLOR, MGT_LAYER_MASK) || wants_layer(targets, count, MGT_LAYER_FOAM, MGT_LAYER_FOAM);
@@ -572,11 +572,11 @@ mgt_status cpu_render_picture(cpu_state *s, const reporter *r, const mgt_scene *
         }
         reference_frame_destroy(job.reference);
     } else {
-        const bool objects = cpu_shows_objects(&job.frame);
-        frame_waves_build(&job.frame, s->waves);
+        const bool objects = cpu_shows_objects(job.frame);
+        frame_waves_build(job.frame, s->waves);
         if (objects)
-            status = refraction_prepare(&s->objects, r, &job.frame, s->sky, s->kernels, s->isa, s->pool);
-        job.tiles = (tile_job){.frame = &job.frame,
+            status = refraction_prepare(&s->objects, r, job.frame, s->sky, s->kernels, s->isa, s->pool);
+        job.tiles = (tile_job){.frame = job.frame,
                                .waves = s->waves,
                                .kernels = s->kernels,
                                .sky = s->sky->table,
@@ -623,8 +623,8 @@ mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, c
     mgt_status status = cpu_prepare_sky(s, r, scene);
     if (status != MGT_OK)
         return status;
-    render_job job = {.state = s, .scene = scene, .targets = target, .target_count = 1};
-    job.frame = frame_of(scene, s->sky, true);
+    render_job job = {.state = s, .scene = scene, .targets = target, .target_count = 1, .frame = &s->frame};
+    frame_make(scene, s->sky, true, job.frame);
     job.crop = image_region(&scene->image);
     job.area = (region){0, 0, scene->image.width, scene->image.height};
     const size_t size = (size_t)job.area.width * job.area.height * 3 * sizeof *job.radiance;
@@ -645,9 +645,9 @@ mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, u
         return status;
     mgt_scene ours = *scene;
     ours.quality.method = MGT_METHOD_MANGATA;
-    const frame f = frame_of(&ours, s->sky, true);
-    frame_waves_build(&f, s->waves);
-    inspect_pixel(&f, s->waves, s->sky->table, x, y, s->scratch[0], info);
+    frame_make(&ours, s->sky, true, &s->frame);
+    frame_waves_build(&s->frame, s->waves);
+    inspect_pixel(&s->frame, s->waves, s->sky->table, x, y, s->scratch[0], info);
     return MGT_OK;
 }
 

@@ -44,8 +44,9 @@ static mgt_status luma_of_picture(void *user, const mgt_scene *scene, const floa
     const mgt_status status = cpu_prepare_sky(u->state, u->r, scene);
     if (status != MGT_OK)
         return status;
-    const frame f = frame_of(scene, u->state->sky, true);
-    luma_job job = {u->state->kernels, &f.data, radiance, luma, scene->image.width};
+    frame *const f = &u->state->frame;
+    frame_make(scene, u->state->sky, true, f);
+    luma_job job = {u->state->kernels, &f->data, radiance, luma, scene->image.width};
     thread_pool_each(u->state->pool, scene->image.height, luma_row, &job);
     return MGT_OK;
 }
@@ -141,14 +142,14 @@ static mgt_status adapt_picture(void *user, const mgt_scene *scene, const pictur
     mgt_status status = podee ? approximate_picture(u, scene, out) : cpu_prepare_sky(s, u->r, scene);
     if (status != MGT_OK)
         return status;
-    const frame f = frame_of(scene, s->sky, true);
+    frame_make(scene, s->sky, true, &s->frame);
     objects_job objects = {.seen = NULL};
-    status = see_objects(u, &f, &objects);
+    status = see_objects(u, &s->frame, &objects);
     if (status != MGT_OK) {
         free(objects.seen);
         return status;
     }
-    const adaptive_frame a = {&f, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, u->sums, report_adaptive, s};
+    const adaptive_frame a = {&s->frame, s->kernels, s->sky->table, s->pool, s->scratch, objects.seen, u->sums, report_adaptive, s};
     status = podee ? adaptive_podee_render(&a, out) : adaptive_render(&a, &s->adaptive, out);
     if (status == MGT_OK)
         put_objects_before(&objects, out);

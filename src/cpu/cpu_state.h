@@ -20,6 +20,7 @@ typedef struct cpu_state {
     lean_map *lean;       /* NULL until a frame needs it */
     refinement *adaptive; /* NULL until a frame needs it */
     refraction *objects;  /* NULL until a frame has objects */
+    frame frame;          /* the frame that is rendered; it is too large for the stacks of some callers */
     frame_waves *waves;
     tile_scratch **scratch; /* one per worker */
     mgt_progress_function progress;

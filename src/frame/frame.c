@@ -134,16 +134,15 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
     f->skyline_entries = skyline_span(&f->open, &f->close, f->scene->image.width, f->scene->image.height, data);
 }
 
-frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
+void frame_make(const mgt_scene *scene, const sky_state *sky, bool want_color, frame *out)
 {
-    frame f;
-    memset(&f, 0, offsetof(frame, foam)); /* frame_foam_of() sets what is read of `foam` */
-    f.scene = scene;
-    f.under = scene->camera.position[1] < 0;
-    FrameData *d = &f.data;
-    lights_place(sky->lights, f.under, d);
-    d->index_of_refraction = (float)(f.under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
-    d->camera_under = f.under;
+    memset(out, 0, offsetof(frame, foam)); /* frame_foam_of() sets what is read of `foam` */
+    out->scene = scene;
+    out->under = scene->camera.position[1] < 0;
+    FrameData *d = &out->data;
+    lights_place(sky->lights, out->under, d);
+    d->index_of_refraction = (float)(out->under ? 1 / scene->water.index_of_refraction : scene->water.index_of_refraction);
+    d->camera_under = out->under;
     double body[3];
     sky_upwelling_radiance(sky, &scene->water, body);
     d->body_r = (float)body[0];
@@ -159,23 +158,21 @@ frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color)
     d->want_color = want_color;
     d->air_rate = sky_state_has_air(scene) ? (float)sky->air_rate : 0;
     d->sky_black = scene->sky.model == MGT_SKY_BLACK && scene->object_count == 0; /* the surface mirrors objects under a black sky, too */
-    set_method(&f);
-    set_through(&f);
-    sines_order(&scene->water, f.order);
-    frame_foam_of(scene, sky, &f.foam);
+    set_method(out);
+    set_through(out);
+    sines_order(&scene->water, out->order);
+    frame_foam_of(scene, sky, &out->foam);
     const camera_rays close = camera_rays_of(&scene->camera, scene->image.width, scene->image.height);
     const camera_rays open = scene->camera_moves ? camera_rays_of(&scene->camera_open, scene->image.width, scene->image.height) : close;
-    frame_look(&f, &open, &close);
-    return f;
+    frame_look(out, &open, &close);
 }
 
-frame frame_by_quality(const frame *f, const mgt_scene *scene)
+void frame_by_quality(const frame *f, const mgt_scene *scene, frame *out)
 {
-    frame other = *f;
-    other.scene = scene;
-    set_method(&other);
-    set_through(&other);
-    return other;
+    *out = *f;
+    out->scene = scene;
+    set_method(out);
+    set_through(out);
 }
 
 /* ---- waves of an interval ---- */

@@ -34,11 +34,11 @@ camera_rays rays_above(const frame *f, const camera_rays *rays);
 /* Sets the frame's cameras at both ends of the shutter. */
 void frame_look(frame *f, const camera_rays *open, const camera_rays *close);
 
-/* Prepares a frame. `sky` must have been built from the scene, and the scene must outlive the frame. */
-frame frame_of(const mgt_scene *scene, const sky_state *sky, bool want_color);
+/* Prepares a frame, which is too large for the stack of a program's thread. `sky` must have been built from the scene, and the scene must outlive the frame. */
+void frame_make(const mgt_scene *scene, const sky_state *sky, bool want_color, frame *out);
 
 /* The frame of a scene that differs from f->scene by its quality alone. */
-frame frame_by_quality(const frame *f, const mgt_scene *scene);
+void frame_by_quality(const frame *f, const mgt_scene *scene, frame *out);
 
 /* The middle of an interval of time and half of its length. */
 typedef struct interval {

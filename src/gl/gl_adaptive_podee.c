@@ -240,10 +240,10 @@ static mgt_status render_band(slots_run *s, const gl_band *b)
 /* Renders the approximate picture by method podee-uniform into the layers. */
 static mgt_status render_approximate(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    gl_plain_frame plain;
-    gl_plain_frame_of(job->frame, MGT_METHOD_PODEE_UNIFORM, &plain);
+    gl_plain_frame *const plain = &g->plain;
+    gl_plain_frame_of(job->frame, MGT_METHOD_PODEE_UNIFORM, plain);
     gl_progress_part part = gl_progress_part_of(job, 0, approximate_fraction);
-    gl_job own = gl_job_of_part(job, &plain.frame, &part);
+    gl_job own = gl_job_of_part(job, &plain->frame, &part);
     own.wants_depth = own.wants_normal = false;
     own.behind = true;
     return gl_frame_render(g, &own, r);

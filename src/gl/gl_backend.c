@@ -251,15 +251,16 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
     mgt_status status = gl_frame_begin(s->renderer, scene, r);
     if (status != MGT_OK)
         return status;
-    const frame f = frame_of(scene, s->renderer->sky, wants->color);
+    frame *const f = &s->renderer->frame;
+    frame_make(scene, s->renderer->sky, wants->color, f);
     *area = image_region(&scene->image);
     if ((wants->display && scene->post.glare > 0) || method_of(scene->quality.method)->way == METHOD_PASS)
         *area = (region){0, 0, scene->image.width, scene->image.height};
     const bool adapts = method_of(scene->quality.method)->pass == METHOD_PASS_ADAPTIVE;
     const gl_job job = {
-        .frame = &f,
+        .frame = f,
         .camera_at = scene_camera_at,
-        .camera_user = &f,
+        .camera_user = f,
         .area = *area,
         .wants_pixels = wants->pixels || (wants->spent && adapts),
         .wants_depth = wants->depth,
@@ -272,7 +273,7 @@ mgt_status gl_layers_render(gl_backend_state *s, const reporter *r, const mgt_sc
     status = gl_frame_render(s->renderer, &job, r);
     if (status == MGT_OK && wants->spent && !adapts)
         status = gl_spent_fill(s->renderer, area, &scene->quality, r);
-    return status == MGT_OK && wants->display ? gl_display_render(s->renderer, &f, area, r) : status;
+    return status == MGT_OK && wants->display ? gl_display_render(s->renderer, f, area, r) : status;
 }
 
 static mgt_status render_entered(gl_backend_state *s, const reporter *r, const mgt_scene *scene, const mgt_target *targets, size_t count)

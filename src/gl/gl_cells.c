@@ -521,20 +521,21 @@ static mgt_status prepare(cells_run *c)
 
 mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    frame colored = *job->frame; /* errors are weighed by colour, even if no colour is asked for */
-    colored.data.want_color = colored.through.want_color = 1;
+    frame *const colored = &g->colored;
+    *colored = *job->frame; /* errors are weighed by colour, even if no colour is asked for */
+    colored->data.want_color = colored->through.want_color = 1;
     gl_job own = *job;
-    own.frame = &colored;
+    own.frame = colored;
     gl_run run;
-    cells_run c = {.run = &run, .g = g, .frame = &colored};
-    cell_part_counts(&colored, c.parts);
-    c.data = data_of(job, &colored, c.parts);
+    cells_run c = {.run = &run, .g = g, .frame = colored};
+    cell_part_counts(colored, c.parts);
+    c.data = data_of(job, colored, c.parts);
     mgt_status status = reserve_pictures(g, &job->area, r);
     if (status == MGT_OK)
         status = gl_run_begin(&run, g, &own, 1 + (size_t)c.data.moves, r);
     if (status != MGT_OK)
         return status;
-    const int rounds = colored.scene->quality.target_rmse > 0 || colored.scene->quality.target_displayed > 0 ? MOST_ROUNDS : SAMPLE_ROUNDS;
+    const int rounds = colored->scene->quality.target_rmse > 0 || colored->scene->quality.target_displayed > 0 ? MOST_ROUNDS : SAMPLE_ROUNDS;
     run.steps = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows + (double)rounds;
     status = prepare(&c);
     if (status == MGT_OK && run.objects)

@@ -505,9 +505,10 @@ mgt_status gl_prepare_objects(const gl_run *run)
     const frame *f = run->job->frame;
     mgt_status status = MGT_OK;
     if (f->scene->camera_moves) {
-        frame opened = *f;
-        opened.close = f->open;
-        status = gl_refraction_prepare(g, &opened, &run->job->area, run->r);
+        frame *const opened = &g->opened;
+        *opened = *f;
+        opened->close = f->open;
+        status = gl_refraction_prepare(g, opened, &run->job->area, run->r);
         for (uint32_t row = run->first_row; row < run->end_row && status == MGT_OK; row += run->band_rows) {
             const gl_band b = gl_band_at(run, row);
             status = see_objects(run, &b, &f->open, (interval){f->scene->time - f->scene->shutter, 0});

@@ -322,13 +322,14 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
         status = gl_frame_begin(s->renderer, &v->scene, r);
     if (status != MGT_OK)
         return status;
-    frame f = frame_of(&v->scene, s->renderer->sky, true);
-    frame_look(&f, v->scene.camera_moves ? &v->open.rays : &v->close.rays, &v->close.rays);
-    f.data.pixel_angle = f.through.pixel_angle = (float)view_pixel_angle(&f.close);
+    frame *const f = &s->renderer->frame;
+    frame_make(&v->scene, s->renderer->sky, true, f);
+    frame_look(f, v->scene.camera_moves ? &v->open.rays : &v->close.rays, &v->close.rays);
+    f->data.pixel_angle = f->through.pixel_angle = (float)view_pixel_angle(&f->close);
     const gl_job job = {
-        .frame = &f,
+        .frame = f,
         .camera_at = view_camera_at,
-        .camera_user = &f,
+        .camera_user = f,
         .area = {0, 0, view->width, view->height},
         .wants_pixels = true,
         .wants_depth = true,
@@ -336,7 +337,7 @@ static mgt_status render_view(gl_backend_state *s, const checked_view *v, size_t
         .background = view->draw_sky,
     };
     status = gl_frame_render(s->renderer, &job, r);
-    return status == MGT_OK ? draw_layers(s, v, encodes, &f, host, r) : status;
+    return status == MGT_OK ? draw_layers(s, v, encodes, f, host, r) : status;
 }
 
 mgt_status gl_render_views(void *state, const reporter *r, const checked_view *views, size_t count)

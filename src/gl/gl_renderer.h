@@ -64,6 +64,12 @@ typedef struct gl_limits {
     size_t table_texels;  /* largest number of elements of a buffer that shaders fetch */
 } gl_limits;
 
+/* A frame that another method draws as a part of the whole frame, and its scene. */
+typedef struct gl_plain_frame {
+    mgt_scene scene;
+    frame frame;
+} gl_plain_frame;
+
 typedef struct gl_renderer {
     gl_api gl;
     gl_limits limits;
@@ -93,6 +99,11 @@ typedef struct gl_renderer {
     wave_set *waves;        /* the waves of the pass that is being prepared */
     bool waves_in_block;    /* true: the frame's waves stand in a uniform block; false: in a storage buffer */
     const char *pass;       /* name of the current pass */
+    /* Frames that are being drawn; here, as callers may have little stack. */
+    frame frame;
+    frame opened;         /* the same where the shutter opens, for objects */
+    frame colored;        /* the same with colour, for cells */
+    gl_plain_frame plain; /* the same by another method */
 } gl_renderer;
 
 /* Creates a renderer in the current OpenGL context, which `get_proc` belongs to. The same context must be current during every other call below. */

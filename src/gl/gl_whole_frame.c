@@ -10,7 +10,7 @@ void gl_plain_frame_of(const frame *f, mgt_method method, gl_plain_frame *out)
 {
     out->scene = *f->scene;
     out->scene.quality = plain_quality(&f->scene->quality, method);
-    out->frame = frame_by_quality(f, &out->scene);
+    frame_by_quality(f, &out->scene, &out->frame);
 }
 
 /* The same frame by the method that the frame's method is based on. */
@@ -124,16 +124,16 @@ static mgt_status make_luma(gl_renderer *g, const frame *f, const region *area, 
 
 static mgt_status render_fxaa(gl_renderer *g, const gl_job *job, const reporter *r)
 {
-    gl_plain_frame none;
-    base_frame_of(job->frame, &none);
-    none.frame.data.want_color = 1;
+    gl_plain_frame *const none = &g->plain;
+    base_frame_of(job->frame, none);
+    none->frame.data.want_color = 1;
     gl_progress_part part = gl_progress_part_of(job, 0, 1);
-    const gl_job own = gl_job_of_part(job, &none.frame, &part);
+    const gl_job own = gl_job_of_part(job, &none->frame, &part);
     mgt_status status = gl_frame_render(g, &own, r);
     if (status == MGT_OK)
         status = reserve(g, &g->history[0], &job->area, true, r);
     if (status == MGT_OK)
-        status = make_luma(g, &none.frame, &job->area, r);
+        status = make_luma(g, &none->frame, &job->area, r);
     if (status != MGT_OK)
         return status;
     const BlendData data = {.width = (int)job->area.width, .height = (int)job->area.height};
@@ -157,18 +157,18 @@ static camera_rays rays_before(const gl_job *job, int back)
 /* Renders the picture of the frame `back` frames ago into g->layers, with that frame's subpixel offset. */
 static mgt_status render_current(gl_renderer *g, const gl_job *job, int back, const reporter *r)
 {
-    gl_plain_frame none;
-    base_frame_of(job->frame, &none);
-    none.scene.time -= back * taa_interval(job->frame->scene);
+    gl_plain_frame *const none = &g->plain;
+    base_frame_of(job->frame, none);
+    none->scene.time -= back * taa_interval(job->frame->scene);
     double offset[2];
     taa_offset(back, offset);
-    camera_rays *c = &none.frame.close;
+    camera_rays *c = &none->frame.close;
     *c = rays_before(job, back);
     for (int i = 0; i < 3; i++)
         c->corner[i] += offset[0] * c->right[i] + offset[1] * c->down[i];
     gl_progress_part part = gl_progress_part_of(job, (double)(TAA_FRAMES - 1 - back) / TAA_FRAMES, 1.0 / TAA_FRAMES);
-    gl_job own = gl_job_of_part(job, &none.frame, &part);
-    own.wants_depth = none.scene.camera_moves;
+    gl_job own = gl_job_of_part(job, &none->frame, &part);
+    own.wants_depth = none->scene.camera_moves;
     own.wants_normal = false;
     return gl_frame_render(g, &own, r);
 }
@@ -213,10 +213,10 @@ static mgt_status render_taa(gl_renderer *g, const gl_job *job, const reporter *
 /* Renders depth, normal and foam by the base method. */
 static mgt_status render_surface(gl_renderer *g, const gl_job *job, gl_progress_part part, const reporter *r)
 {
-    gl_plain_frame base;
-    base_frame_of(job->frame, &base);
-    base.frame.data.want_color = 0;
-    gl_job own = gl_job_of_part(job, &base.frame, &part);
+    gl_plain_frame *const base = &g->plain;
+    base_frame_of(job->frame, base);
+    base->frame.data.want_color = 0;
+    gl_job own = gl_job_of_part(job, &base->frame, &part);
     own.wants_pixels = false;
     return gl_frame_render(g, &own, r);
 }

@@ -6,12 +6,6 @@
 #include "frame/whole_frame.h"
 #include "gl/gl_renderer.h"
 
-/* A frame that another method draws as a part of the whole frame, and its scene. */
-typedef struct gl_plain_frame {
-    mgt_scene scene;
-    frame frame;
-} gl_plain_frame;
-
 void gl_plain_frame_of(const frame *f, mgt_method method, gl_plain_frame *out);
 
 /* The progress of one picture as a part of the frame's progress, which it takes from `first` to first + share. */

@@ -137,7 +137,7 @@ static inline kernel_bench *kernel_bench_create(const mgt_scene *scene)
     assert_non_null(b->sky);
     b->scene = *scene;
     assert_int_equal(sky_state_build(b->sky, &b->scene.sky, &b->scene.light), MGT_OK);
-    b->frame = frame_of(&b->scene, b->sky, false);
+    frame_make(&b->scene, b->sky, false, &b->frame);
     b->cx = (struct kernel_context){.frame = &b->frame.data,
                                     .tile = &b->tile.data,
                                     .waves = b->tile.waves,

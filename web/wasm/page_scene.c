@@ -91,7 +91,8 @@ frame page_frame(mgt_method method, uint32_t columns, uint32_t rows, const doubl
 {
     scene.image = (mgt_image){.width = columns, .height = rows};
     scene.quality.method = method;
-    frame f = frame_of(&scene, sky, true);
+    frame f;
+    frame_make(&scene, sky, true, &f);
     camera_rays rays = camera_rays_of(&scene.camera, columns, rows);
     for (int i = 0; i < 3; i++)
         rays.corner[i] += jitter[0] * rays.right[i] + jitter[1] * rays.down[i];
