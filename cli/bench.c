@@ -253,6 +253,8 @@ static const option_table bench_table = {"bench",
                                          "The methods take turns, so that a change of the machine's pace meets all of them.",
                                          bench_options,
                                          sizeof bench_options / sizeof bench_options[0],
+                                         .notes = "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
+                                                  "75 try again, 129, 130 and 143 stopped by a signal",
                                          .operand = {.set = option_one_scene, .offset = offsetof(bench_request, scene_path)},
                                          .changes = offsetof(bench_request, changes),
                                          .run = run};

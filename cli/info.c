@@ -165,8 +165,12 @@ static int run(void *request)
     return EXIT_CODE_OK;
 }
 
-static const option_table info_table = {"info", "[options]", "Lists version, instruction sets, threads, libraries and file formats.",
-                                        .operand = {.set = refuse_operand}, .run = run};
+static const option_table info_table = {"info",
+                                        "[options]",
+                                        "Lists version, instruction sets, threads, libraries and file formats.",
+                                        .notes = "exit codes: 0 done, 1 failed, 64 usage",
+                                        .operand = {.set = refuse_operand},
+                                        .run = run};
 
 int verb_info(int count, char **arguments)
 {

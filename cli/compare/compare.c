@@ -197,7 +197,7 @@ static const option_table compare_table = {"compare",
                                            compare_options,
                                            sizeof compare_options / sizeof compare_options[0],
                                            .notes = "exit codes: 0 done, 2 above a limit, 64 usage, 65 bad scene, 66 no such scene, 69 not available,\n"
-                                                    "73 cannot write, 75 try again, 130 and 143 stopped by a signal",
+                                                    "73 cannot write, 75 try again, 129, 130 and 143 stopped by a signal",
                                            .operand = {.set = add_scene},
                                            .changes = offsetof(compare_request, changes),
                                            .run = run};

@@ -99,7 +99,7 @@ static const option_table figures_table = {"figures",
                                            figures_options,
                                            sizeof figures_options / sizeof figures_options[0],
                                            .notes = "exit codes: 0 done, 2 a claim does not hold (--check), 64 usage, 65 bad scene, 66 no such scene,\n"
-                                                    "69 not available, 73 cannot write, 75 try again, 130 and 143 stopped by a signal",
+                                                    "69 not available, 73 cannot write, 75 try again, 129, 130 and 143 stopped by a signal",
                                            .operand = {.set = refuse_operand},
                                            .changes = offsetof(figures_request, changes),
                                            .run = run};

@@ -253,7 +253,7 @@ static const option_table render_table =
      .notes = "The same scene, frame and options give the same bytes, whatever the threads and the machine, but for --isa sse2,\n"
               "a compatible build without fused arithmetic.\n"
               "exit codes: 0 done, 1 failed, 64 usage, 65 bad scene, 66 no such input, 69 not available,\n"
-              "73 cannot write, 75 try again (a device was lost, no thread could be started), 130 and 143 stopped by a signal",
+              "73 cannot write, 75 try again (a device was lost, no thread could be started), 129, 130 and 143 stopped by a signal",
      .operand = {.set = option_one_scene, .offset = offsetof(render_request, scene_path)},
      .quality = offsetof(render_request, options),
      .changes = offsetof(render_request, changes),
