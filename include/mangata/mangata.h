@@ -6,7 +6,7 @@
  *
  * Conventions of every function here
  *   Units       metres, seconds, degrees where the name says so and radians elsewhere; luminance in kcd/m².
- *   Axes        right-handed, y up. The mean water surface is y = 0. Azimuth 0 is -z ("north"), 90 is +x ("east").
+ *   Axes        right-handed, y up. The mean water surface is y = water.level, 0 by default. Azimuth 0 is -z ("north"), 90 is +x ("east").
  *   Pixels      (0,0) is the top left pixel; +x of the image is cross(forward, up).
  *   Structs     a struct that begins with `struct_size` is initialised by its mgt_*_init(&x, sizeof x), which writes no more than
  *               that; one that a function only fills needs nothing but struct_size = sizeof. Later versions add members at the

@@ -33,8 +33,8 @@ MGT_API void mgt_water_answers_init(mgt_water_answers *answers, size_t size);
 
 /* Answers for `count` points, x and z of each in metres, within ±1e9. Of `water`, its waves, choppiness and level are read. A point that is not finite gets NaN.
  * Any thread, several at once; nothing is allocated or kept, and a point's answer depends neither on the others nor on the thread. With AVX2 and AVX-512 it is
- * the same to the bit. 64 waves take a core with AVX2 about 65 ns a point, of choppy water two to three times as long, and a little more in winds so strong
- * that crests fold. The stack needs up to 0.4 MiB, with more than 512 waves 0.7.
+ * the same to the bit. 64 waves take a core some 40 to 70 ns a point, choppy water about four times as long (docs/benchmarks.md), and a little more in winds
+ * so strong that crests fold. The stack needs up to 0.4 MiB, with more than 512 waves 0.7.
  * MGT_ERROR_SCENE: a wave is out of its range; MGT_ERROR_ARGUMENT: the time is not within ±1e9 s, a finite point not within ±1e9 m, or a pointer is missing.
  * mgt_last_error(NULL) says which, and nothing has been written. */
 MGT_API mgt_status mgt_water_query(const mgt_water *water, double time, const double *points, size_t count, mgt_water_answers *answers);
