@@ -14,7 +14,7 @@ _METRICS = names(io.mgt_metric_name)
 
 
 def metric_names() -> Sequence[str]:
-    """The metrics that there are; docs/command.md says what they mean."""
+    """The metrics that there are; docs/metrics.md says what they mean."""
     return list(_METRICS)
 
 
@@ -78,7 +78,7 @@ def metrics(
 
 
 def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: str = "linear", pixels_per_degree: float = 0.0) -> np.ndarray:
-    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/command.md.
+    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/metrics.md.
 
     NaN at pixels that cannot be compared, as those that are NaN in a alone."""
     mapped = ("rmse", "relrmse", "flip", "hdr-flip", "ssim")
