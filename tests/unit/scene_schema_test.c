@@ -83,24 +83,31 @@ static void the_table_in_docs_is_this_one(void **state)
     free(document);
 }
 
-static void the_examples_in_docs_load(void **state)
+/* Loads every YAML block of a page; returns how many there are. */
+static int load_examples(const char *page)
 {
-    (void)state;
-    char *document = read_file(DOCS "scenes.md");
+    char *document = read_file(page);
     int examples = 0;
     for (char *at = document; (at = strstr(at, "```yaml\n")) != NULL; examples++) {
         at += strlen("```yaml\n");
         char *end = strstr(at, "```");
         assert_non_null(end);
         scene_error error;
-        scene_file *file = scene_file_parse(at, (size_t)(end - at), "docs/scenes.md", NULL, 0, &error);
+        scene_file *file = scene_file_parse(at, (size_t)(end - at), page, NULL, 0, &error);
         if (file == NULL)
             fail_msg("%s", error.text);
         scene_file_free(file);
         at = end;
     }
-    assert_true(examples >= 2);
     free(document);
+    return examples;
+}
+
+static void the_examples_in_docs_load(void **state)
+{
+    (void)state;
+    assert_true(load_examples(DOCS "scenes.md") >= 2);
+    assert_true(load_examples(DOCS "objects.md") >= 1);
 }
 
 /* ---- every numeric field at and just beyond its ends ---------------------------------------------------------- */
