@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rendering into numpy arrays."""
+import functools
 import re
 import threading
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
@@ -155,7 +156,7 @@ def render(
     """Renders a frame: a dictionary of numpy arrays by layer, top row first.
 
     scene    a Scene, a dictionary, or the path of a scene file
-    method   "mangata", "podee-pixel", "ssaa4", "reference", …; None: the scene's
+    method   "mangata", "podee-pixel", "ssaa4", "reference", …, with its own `spatial` and `time_samples`, not the scene's; None: the scene's, with all its options
     layers   "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
              "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
     frame    from 0; its time is start + frame / fps
@@ -173,7 +174,10 @@ def render(
     if method is not None:
         # The number replaces the scene's own key `spatial`, which may not stand beside ssaaN.
         number = re.fullmatch(r"ssaa([0-9]+)", method)
-        given["quality.method"] = "ssaa" if number else method
+        name = given["quality.method"] = "ssaa" if number else method
+        if name in methods():  # else the scene says what is wrong
+            # As by --method of the command: the method brings its numbers of samples along, whatever the scene's are.
+            given["quality.spatial"], given["quality.time_samples"] = _samples(name)
         if number and "spatial" in options:
             raise ValueError("spatial: write the number into ssaaN")
         if number:
@@ -199,6 +203,13 @@ def render(
         result[layer] = out[layer] if out and layer in out else np.empty(shape, dtype)
     (context or _context(backend, threads, isa)).render_into(view, list(result.items()), progress)
     return result
+
+
+@functools.lru_cache(maxsize=None)
+def _samples(method: str) -> Tuple[int, int]:
+    """The method's own `spatial` and `time_samples`."""
+    quality = Scene({"quality": {"method": method}}).frame().quality
+    return quality.spatial_samples, quality.time_samples
 
 
 def _changed(scene: Scene, changes: Mapping[str, Any]) -> Scene:

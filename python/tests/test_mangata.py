@@ -145,6 +145,19 @@ def test_pixels_are_those_of_the_command(scene, tmp_path, method, words):
         assert np.array_equal(ours[layer], mangata.read(tmp_path / "a.exr", layer)), layer
 
 
+@pytest.mark.parametrize("method, options, samples", [
+    (None, {}, 12), ("ssaa", {}, 16), ("ssaa2", {}, 4), ("ssaa", {"spatial": 3}, 9), ("ssaa", {"time_samples": 2}, 32), ("reference", {"spatial": 1}, 8), ("mangata", {}, 1), (None, {"spatial": 1}, 3)])
+def test_samples_of_a_scene_are_those_of_the_command(tmp_path, method, options, samples):
+    path = tmp_path / "own.yaml"
+    path.write_text("mangata: 1\nwater: {wind: 6}\nquality: {method: ssaa, spatial: 2, time_samples: 3, seed: 5}\n")
+    words = (["--method", method] if method else []) + [f"--{key.replace('_', '-')}={value}" for key, value in options.items()]
+    command("render", path, "-o", tmp_path / "a.exr", "--size", "16x9", "--layer", "coverage", "--layer", "color", "--layer", "samples", *words)
+    ours = mangata.render(path, method, ["coverage", "color", "samples"], size=(16, 9), **options)
+    assert (ours["samples"] == samples).all()
+    for layer in ours:
+        assert np.array_equal(ours[layer], mangata.read(tmp_path / "a.exr", layer)), layer
+
+
 def test_display_crop_and_threads(scene, tmp_path):
     command("render", SIMPLE, "-o", tmp_path / "a.png", "--size", "64x36")
     whole = mangata.render(scene, layers=["display"], size=SMALL)["display"]
