@@ -54,9 +54,9 @@ def new_error():
 class Scene:
     """A scene that has been read and checked. It does not change: `changed()` gives another one.
 
-    Scene("water: {wind: 12}")             YAML or JSON
-    Scene({"water": {"wind": 12}})         the same as a dictionary, whose values may be numpy's
-    Scene({...}, {"light.elevation_deg": 6})  with changes, whose keys are paths of the scene format
+    Scene("mangata: 1\\nwater: {wind: 12}")    YAML or JSON
+    Scene({"water": {"wind": 12}})            the same as a dictionary, whose values may be numpy's
+    Scene({"water": {"wind": 12}}, {"light.elevation_deg": 6})  with changes, whose keys are paths of the scene format
     """
 
     def __init__(self, document: Document, changes: Optional[Mapping[str, Any]] = None, name: str = "scene") -> None:

@@ -40,6 +40,13 @@ def test_scene_as_file_text_and_dictionary_are_one(scene):
     assert scene.waves().shape[1] == 5
 
 
+def test_examples_of_the_docstring_are_legal():
+    examples = [line.strip().split("  ")[0] for line in mangata.Scene.__doc__.splitlines() if line.strip().startswith("Scene(")]
+    assert len(examples) == 3
+    for example in examples:
+        assert len(eval(example, {"Scene": mangata.Scene}).waves()) > 0, example
+
+
 def test_changes_take_numbers_lists_and_arrays(scene):
     other = scene.changed({"camera.position": np.array([0.0, 9.0, 0.0]), "light.elevation_deg": np.float64(33), "image.width": 10})
     view = other.frame(0)
