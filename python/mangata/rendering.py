@@ -9,7 +9,7 @@ import numpy as np
 
 from ._library import ffi, lib, names, text
 from .errors import Cancelled, MangataError, SceneError
-from .scenes import Scene, SceneLike, as_scene
+from .scenes import Scene, SceneLike, as_scene, change_texts
 
 Progress = Callable[[float], Optional[bool]]
 
@@ -214,10 +214,11 @@ def _samples(method: str) -> Tuple[int, int]:
 
 def _changed(scene: Scene, changes: Mapping[str, Any]) -> Scene:
     """The changed scene, the last one of each kept, so that a second frame does not read it again."""
-    key = repr(sorted(changes.items()))
+    texts = change_texts(changes)
+    key = list(texts.items())
     kept = getattr(scene, "_last_change", None)
     if kept is None or kept[0] != key:
-        kept = scene._last_change = (key, scene.changed(changes))
+        kept = scene._last_change = (key, scene._changed(texts))
     return kept[1]
 
 

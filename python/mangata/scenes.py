@@ -13,14 +13,28 @@ Document = Union[str, Mapping[str, Any]]
 
 
 def _plain(value: Any) -> Any:
-    """numpy's numbers and arrays as JSON has them."""
+    """numpy's numbers and arrays, and paths, as JSON has them."""
     if hasattr(value, "tolist"):
         return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fsdecode(value)
     raise TypeError(f"{type(value).__name__} does not fit into a scene")
 
 
-def _yaml(value: Any) -> str:
-    return json.dumps(value, default=_plain)
+def change_texts(changes: Optional[Mapping[str, Any]]) -> Dict[str, str]:
+    """Changes with their values as text, which later changes of an array or a list do not reach."""
+    return {str(key): json.dumps(value, default=_plain) for key, value in (changes or {}).items()}
+
+
+def _merged(before: Dict[str, str], changes: Dict[str, str]) -> Dict[str, str]:
+    """Changes after others. A value replaces what was within it before; items of lists keep their places, for an index must not be beyond the end."""
+    merged = dict(before)
+    for key, value in changes.items():
+        merged = {other: kept for other, kept in merged.items() if not other.startswith((key + ".", key + "["))}
+        if any(key.startswith((other + ".", other + "[")) for other in merged):
+            merged.pop(key, None)
+        merged[key] = value
+    return merged
 
 
 def raise_io(status: int, error) -> None:
@@ -62,43 +76,56 @@ class Scene:
     def __init__(self, document: Document, changes: Optional[Mapping[str, Any]] = None, name: str = "scene") -> None:
         if not isinstance(document, str):
             document = json.dumps({"mangata": 1, **document}, default=_plain)
-        self._open("text", document, dict(changes or {}), name)
+        self._open("text", document.encode(), change_texts(changes), name)
 
     @classmethod
     def load(cls, path: Union[str, os.PathLike], changes: Optional[Mapping[str, Any]] = None) -> "Scene":
         """Reads a scene file. FileNotFoundError, SceneError."""
         scene = cls.__new__(cls)
-        scene._open("file", os.fspath(path), dict(changes or {}), "")
+        name = os.fsdecode(path)
+        scene._open("file", b"", change_texts(changes), name)
+        if name != "-":
+            # The scene stays what it is, whatever becomes of its file or of the working folder.
+            with open(name, "rb") as file:
+                scene._kind, scene._source = "text", file.read()
+            scene._path = os.path.join(os.getcwd(), name)
         return scene
 
     @classmethod
     def sea(cls, changes: Optional[Mapping[str, Any]] = None, **words: Any) -> "Scene":
         """A sea under a low sun from the wind: sea(wind=12, direction=30, seed=3); the words are those of `mangata render --sea` (docs/seas.md)."""
         scene = cls.__new__(cls)
-        scene._open("sea", ",".join(f"{key}={value}" for key, value in words.items()), dict(changes or {}), "")
+        words_ = ",".join(f"{key}={value}" for key, value in words.items())
+        scene._open("sea", words_.encode(), change_texts(changes), words_)
         return scene
 
     def changed(self, changes: Mapping[str, Any]) -> "Scene":
         """The scene with these values: changed({"light.elevation_deg": 3, "camera.position": [0, 4, 0]})."""
+        return self._changed(change_texts(changes))
+
+    def _changed(self, changes: Dict[str, str]) -> "Scene":
         scene = type(self).__new__(type(self))
-        scene._open(self._kind, self._source, {**self._changes, **changes}, self._name)
+        scene._open(self._kind, self._source, _merged(self._changes, changes), self._name, self._path)
         return scene
 
-    def _open(self, kind: str, source: str, changes: Dict[str, Any], name: str) -> None:
-        self._kind, self._source, self._changes, self._name = kind, source, changes, name
-        words = [ffi.new("char[]", without_nul(f"{key}={_yaml(value)}".encode())) for key, value in changes.items()]
+    def _open(self, kind: str, source: bytes, changes: Dict[str, str], name: str, path: Optional[str] = None) -> None:
+        self._kind, self._source, self._changes, self._name, self._path = kind, source, changes, name, path
+        words = [ffi.new("char[]", without_nul(f"{key}={value}".encode())) for key, value in changes.items()]
         array = ffi.new("char *[]", words) if words else ffi.NULL
         error, out = new_error(), ffi.new("mgt_scene_file **")
-        data = path_bytes(source) if kind == "file" else source.encode()
         if kind == "file":
-            status = io.mgt_scene_file_load(out, data, array, len(words), error)
+            status = io.mgt_scene_file_load(out, path_bytes(name), array, len(words), error)
         elif kind == "sea":
-            status = io.mgt_scene_file_sea(out, without_nul(data), array, len(words), error)
+            status = io.mgt_scene_file_sea(out, without_nul(source), array, len(words), error)
         else:
-            status = io.mgt_scene_file_parse(out, data, len(data), without_nul(name.encode()), array, len(words), error)
+            status = io.mgt_scene_file_parse(out, source, len(source), path_bytes(path or name), array, len(words), error)
         if status:
             raise_io(status, error)
         self._file = ffi.gc(out[0], io.mgt_scene_file_free)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        # Read again from the text where it is loaded; other files that it names have to be there.
+        return _again, (type(self), self._kind, self._source, self._changes, self._name, self._path)
 
     def frame(self, frame: int = 0) -> Any:
         """The C struct `mgt_scene *` of a frame; what it points to lives as long as this scene."""
@@ -137,7 +164,13 @@ class Scene:
 
     def __repr__(self) -> str:
         width, height = self.size
-        return f"<mangata.Scene {self._source if self._kind != 'text' else self._name!r}: {width} x {height}, {self.frames} frames>"
+        return f"<mangata.Scene {self._name!r}: {width} x {height}, {self.frames} frames>"
+
+
+def _again(kind: type, *opened: Any) -> Scene:
+    scene: Scene = kind.__new__(kind)
+    scene._open(*opened)
+    return scene
 
 
 # What functions take as a scene.

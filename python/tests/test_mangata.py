@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The package against the command, against numpy, and with bad input."""
+import copy
 import gc
 import inspect
 import os
+import pickle
 import subprocess
 import threading
 import typing
@@ -52,6 +54,57 @@ def test_changes_take_numbers_lists_and_arrays(scene):
     view = other.frame(0)
     assert view.camera.position[1] == 9 and view.light.elevation_deg == 33 and other.size[0] == 10
     assert scene.frame(0).camera.position[1] != 9
+
+
+def test_the_last_change_counts():
+    base = mangata.Scene({"water": {"wind": 9}})
+    waves = [{"amplitude": 0.5, "a": 0.3, "b": 0.4, "c": -1}, {"amplitude": 0.25, "a": 0.1, "b": 0.4, "c": -1}]
+    assert len(base.changed({"water.wind": 5}).changed({"water": {"waves": waves}}).waves()) == 2
+    assert len(base.changed({"water": {"waves": waves}}).changed({"water": {"waves": waves[:1]}}).waves()) == 1
+    one = base.changed({"water": {"waves": waves[:1]}}).changed({"water.waves[0]": waves[0]}).changed({"water.waves[1]": waves[1]})
+    assert one.changed({"water.waves[0].amplitude": 0.125}).waves()[:, 0].tolist() == [0.125, 0.25]
+    assert one.changed({"water.waves[0]": waves[1]}).waves()[:, 0].tolist() == [0.25, 0.25]
+    again = base.changed({"light.elevation_deg": 3}).changed({"light": {"azimuth_deg": 5}}).changed({"light.elevation_deg": 7})
+    assert again.frame().light.elevation_deg == 7 and again.frame().light.azimuth_deg == 5
+
+
+def test_scenes_stay_what_they_are(scene, tmp_path, monkeypatch):
+    path = tmp_path / "a.yaml"
+    path.write_text("mangata: 1\nlight: {elevation_deg: 3}\n")
+    monkeypatch.chdir(tmp_path)
+    loaded, place = mangata.load("a.yaml"), np.array([0.0, 4.0, 0.0])
+    moved = loaded.changed({"camera.position": place})
+    path.write_text("mangata: 1\nlight: {elevation_deg: 9}\n")
+    place[1] = 8
+    monkeypatch.chdir("/")
+    path.unlink()
+    assert loaded.changed({"image.width": 9}).frame().light.elevation_deg == 3
+    view = moved.changed({"image.width": 9}).frame()
+    assert view.light.elevation_deg == 3 and view.camera.position[1] == 4
+    assert mangata.render(loaded, size=SMALL)["color"].shape == (36, 64, 3)
+    # numpy prints eight digits, and not every item of a long array: neither tells what a picture shows.
+    heights = [mangata.render(scene, layers=["depth"], size=(4, 2), changes={"camera.position": np.array([0, height, 0])})["depth"] for height in (4, 4 + 1e-9, 4 + 1e-3)]
+    views = [scene._last_change[1].frame().camera.position[1]]
+    assert views == [4 + 1e-3] and not np.array_equal(heights[0], heights[2])
+    mangata.render(scene, size=(4, 2), changes={"camera.position": np.array([0, 4 + 1e-3 + 1e-12, 0])})
+    assert scene._last_change[1].frame().camera.position[1] == 4 + 1e-3 + 1e-12
+
+
+def test_scenes_are_copied_and_pickled(scene):
+    for original in (scene, scene.changed({"light.elevation_deg": 3}), mangata.sea(wind=9), mangata.Scene({"description": "🌊 ü", "water": {"wind": 9}})):
+        for same in (copy.copy(original), copy.deepcopy(original), pickle.loads(pickle.dumps(original))):
+            assert np.array_equal(same.waves(), original.waves()) and repr(same) == repr(original)
+            assert same.frame().light.elevation_deg == original.frame().light.elevation_deg
+    with pytest.raises(mangata.SceneError) as caught:
+        mangata.Scene("mangata: 2")
+    assert vars(pickle.loads(pickle.dumps(caught.value))) == vars(caught.value)
+
+
+def test_scenes_take_paths(tmp_path):
+    corners = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+    (tmp_path / "a.ply").write_text(f"ply\nformat ascii 1.0\n{corners}end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    found = mangata.Scene({"objects": [{"mesh": tmp_path / "a.ply"}]})
+    assert found.frame().object_count == 1
 
 
 def test_options_that_the_method_does_not_read_are_refused(scene):
