@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Rendering into numpy arrays."""
 import functools
+import os
 import re
 import threading
+import weakref
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -39,6 +41,7 @@ class Context:
     """What renders: threads and tables that are kept from one frame to the next. One thread renders at a time, others wait.
 
     backend: "cpu", "gl", "auto" or "null". threads: up to 1024; 0 for as many as the CPUs that this process may use. isa: the highest instruction set.
+    `with Context() as context:` ends its threads behind the block, as close() does. A process that was forked has a context of its own in place of each.
     """
 
     def __init__(self, backend: str = "cpu", threads: int = 0, isa: str = "auto") -> None:
@@ -51,21 +54,50 @@ class Context:
         desc.threads = threads
         self._progress: Optional[Progress] = None
         self._raised: Optional[BaseException] = None
-        self._callback = ffi.callback("bool(void *, double)", self._step, error=False, onerror=self._fail)
-        desc.progress = self._callback
+        desc.progress = self._callback = _callback(self)
+        self._desc, self._context, self._closed = desc, ffi.NULL, False
+        self._after_fork()
+        self._open()
+        _living.add(self)
+
+    def _open(self) -> None:
         out = ffi.new("mgt_context **")
-        status = lib.mgt_context_create(out, desc)
+        status = lib.mgt_context_create(out, self._desc)
         if status:
             raise MangataError(text(lib.mgt_last_error(ffi.NULL)), text(lib.mgt_status_name(status)))
         self._context = ffi.gc(out[0], lib.mgt_context_destroy)
+
+    def _after_fork(self) -> None:
+        # The threads of a context are not there in a forked process: waiting for their end would never end.
+        if self._context != ffi.NULL:
+            ffi.gc(self._context, None)
+        self._context = ffi.NULL
         self._lock = threading.Lock()
+        self._renders: Optional[int] = None  # the thread that renders
 
-    def _step(self, _user, fraction: float) -> bool:
+    def _refuse_own_thread(self) -> None:
+        if self._renders == threading.get_ident():
+            raise RuntimeError("a progress function uses the context that has called it; render(context=Context()) takes another")
+
+    def close(self) -> None:
+        """Ends its threads; to render with it is a ValueError from then on. A second time does nothing."""
+        self._refuse_own_thread()
+        with self._lock:
+            self._closed = True
+            if self._context != ffi.NULL:
+                ffi.release(self._context)
+                self._context = ffi.NULL
+
+    def __enter__(self) -> "Context":
+        return self
+
+    def __exit__(self, *_raised: object) -> None:
+        self.close()
+
+    def _step(self, fraction: float) -> bool:
         # Also where a signal such as Ctrl-C becomes an exception.
-        return self._progress is None or self._progress(fraction) is not False
-
-    def _fail(self, _kind, exception, _traceback) -> None:
-        self._raised = exception
+        answer = None if self._progress is None else self._progress(fraction)
+        return not (isinstance(answer, (bool, np.bool_)) and not answer)
 
     def render_into(self, scene: Any, targets: Sequence[Tuple[str, np.ndarray]], progress: Optional[Progress] = None) -> None:
         """Renders a C scene, `Scene.frame()`, into arrays of the crop's size: float32 (h, w, 3) of color, normal and refraction, float32 (h, w) of the other
@@ -80,12 +112,19 @@ class Context:
             kept.append(pointer)
             target.pixels = pointer
             target.row_stride = pixels.strides[0]
+        self._refuse_own_thread()
         with self._lock:
-            self._progress, self._raised = progress, None
-            status = lib.mgt_render(self._context, scene, array, len(targets))
-            self._progress = None
-            raised, self._raised = self._raised, None
-            message = text(lib.mgt_last_error(self._context)) if status else ""
+            if self._closed:
+                raise ValueError("the context is closed")
+            if self._context == ffi.NULL:
+                self._open()
+            self._renders, self._progress, self._raised = threading.get_ident(), progress, None
+            try:
+                status = lib.mgt_render(self._context, scene, array, len(targets))
+                message = text(lib.mgt_last_error(self._context)) if status else ""
+            finally:
+                raised = self._raised
+                self._renders = self._progress = self._raised = None
         if raised is not None:
             raise raised
         if status == lib.MGT_CANCELLED:
@@ -96,6 +135,32 @@ class Context:
             raise MemoryError(message)
         if status:
             raise MangataError(message, text(lib.mgt_status_name(status)))
+
+
+def _callback(context: Context) -> Any:
+    """The progress function of C. It does not keep the context, whose threads end with the last use of it."""
+    weak = weakref.ref(context)
+
+    def step(_user, fraction: float) -> bool:
+        return weak()._step(fraction)
+
+    def fail(_kind, exception, _traceback) -> None:
+        weak()._raised = exception
+
+    return ffi.callback("bool(void *, double)", step, error=False, onerror=fail)
+
+
+_living: "weakref.WeakSet[Context]" = weakref.WeakSet()
+
+
+def _after_fork() -> None:
+    global _contexts_lock
+    _contexts_lock = threading.Lock()
+    for context in list(_living):
+        context._after_fork()
+
+
+os.register_at_fork(after_in_child=_after_fork)
 
 
 def _layer_format(layer: str) -> Tuple[int, int]:

@@ -5,6 +5,7 @@ import gc
 import inspect
 import os
 import pickle
+import signal
 import subprocess
 import threading
 import typing
@@ -273,6 +274,78 @@ def test_progress_and_cancel(scene):
     with pytest.raises(KeyError):
         mangata.render(scene, "reference", size=(320, 180), progress=fail)
     assert mangata.render(scene, size=SMALL)["color"].shape == (36, 64, 3)
+
+
+def test_progress_may_answer_with_numpy(scene):
+    with pytest.raises(mangata.Cancelled):
+        mangata.render(scene, "ssaa16", size=(320, 180), progress=lambda share: np.float64(share) < 0)
+
+
+def test_progress_that_renders_with_its_own_context(scene):
+    inner = []
+    with pytest.raises(RuntimeError, match="uses the context that has called it"):
+        mangata.render(scene, "ssaa16", size=(320, 180), progress=lambda share: mangata.render(scene, size=SMALL) and None)
+    with mangata.Context() as other:
+        mangata.render(scene, "ssaa16", size=(320, 180), progress=lambda share: inner.append(mangata.render(scene, size=(8, 4), context=other)))
+    assert inner
+
+
+def test_ctrl_c_ends_a_long_render(scene):
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        mangata.render(scene, "reference", size=(640, 360), spatial=64, time_samples=64)
+    assert mangata.render(scene, size=SMALL)["color"].shape == (36, 64, 3)
+
+
+def test_contexts_end(scene):
+    def threads():
+        return len(os.listdir("/proc/self/task"))
+
+    mangata.render(scene, size=SMALL)
+    before = threads()
+    gc.disable()
+    try:
+        for _ in range(4):
+            mangata.Context(threads=3)
+        assert threads() == before
+    finally:
+        gc.enable()
+    with mangata.Context(threads=3) as context:
+        assert mangata.render(scene, size=SMALL, context=context)["color"].shape == (36, 64, 3)
+        assert threads() > before
+    assert threads() == before
+    context.close()
+    with pytest.raises(ValueError, match="the context is closed"):
+        mangata.render(scene, size=SMALL, context=context)
+
+
+def test_renders_in_a_forked_process(scene):
+    context = mangata.Context(threads=2)
+    wanted = mangata.render(scene, size=SMALL, context=context)["color"]
+    mangata.render(scene, size=SMALL)
+    child = os.fork()
+    if not child:
+        signal.alarm(60)
+        same = all(np.array_equal(mangata.render(scene, size=SMALL, context=which)["color"], wanted) for which in (context, None))
+        context.close()
+        os._exit(0 if same else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert np.array_equal(mangata.render(scene, size=SMALL, context=context)["color"], wanted)
+
+
+def test_many_renders_take_no_memory(scene):
+    def memory():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    def draw():
+        for frame in range(250):
+            mangata.render(scene, layers=["color", "coverage"], frame=frame % 60, size=(32, 18), changes={"light.elevation_deg": frame % 7})
+
+    draw()
+    before = memory()
+    draw()
+    assert memory() < before + 2**22
 
 
 def test_threads_of_python(scene):
