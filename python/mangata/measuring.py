@@ -5,6 +5,7 @@ import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._library import ffi, io, lib, names
 from .rendering import render
@@ -18,9 +19,25 @@ def metric_names() -> Sequence[str]:
     return list(_METRICS)
 
 
-def _clip(picture: np.ndarray, clip: bool) -> np.ndarray:
+# The greatest values of whole numbers: as in PNG they stand for fractions.
+_WHITE = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
+
+
+def _clip(picture: ArrayLike, clip: bool) -> np.ndarray:
     """(frames, h, w, channels) float32; nothing is copied where it is packed float32 already."""
+    if np.ma.is_masked(picture):
+        raise ValueError("a picture has masked pixels, which metrics cannot leave out: score a rectangle without them, or their filled() values")
+    picture = np.asarray(picture)
+    white = _WHITE.get(picture.dtype.newbyteorder("="))
+    if white is None and picture.dtype.kind not in "fb":
+        raise ValueError(f"a picture of {picture.dtype}: allowed are floats, bool, and uint8 and uint16, whose 255 and 65535 stand for 1")
+    if white == 255 and picture.shape[-1:] == (4,) and (picture[..., 3] == 255).all():
+        picture = picture[..., :3]  # "display" of render()
+    if picture.dtype.itemsize > 4 and (np.isfinite(picture) & (np.abs(picture) > np.finfo(np.float32).max)).any():
+        raise ValueError("a picture has values beyond those of float32, 3.4e38")
     picture = np.ascontiguousarray(picture, np.float32)
+    if white is not None:
+        picture = picture / np.float32(white)
     dimensions = picture.ndim - int(clip)
     if dimensions == 2:
         picture = picture[..., None]
@@ -29,18 +46,50 @@ def _clip(picture: np.ndarray, clip: bool) -> np.ndarray:
     return picture if clip else picture[None]
 
 
-def _measure(a: np.ndarray, b: np.ndarray, words: Optional[str], clip: bool, encoding: str, pixels_per_degree: float, map_metric: int = 0, with_map: bool = False):
+def _encoding(a: ArrayLike, b: ArrayLike, encoding: Optional[str]) -> str:
+    """What the values are: whole numbers are sRGB-encoded, as those of PNG, unless the caller says otherwise."""
+    if encoding not in (None, "linear", "srgb"):
+        raise ValueError(f"encoding {encoding!r}: allowed is linear, srgb")
+    whole = [np.asarray(picture).dtype.kind == "u" for picture in (a, b)]
+    if encoding is None and whole[0] != whole[1]:
+        raise ValueError("one picture holds whole numbers, as PNG does, the other floats: encoding='linear' or 'srgb' says what both are")
+    return encoding or ("srgb" if whole[0] else "linear")
+
+
+def _words(metrics: Union[str, Sequence[str]]) -> List[str]:
+    """The metrics of "rmse,flip" or a list, each a word of the library's."""
+    words = metrics.split(",") if isinstance(metrics, str) else list(metrics)
+    words = [word.strip() for word in words]
+    for word in words:
+        if word not in _METRICS:
+            raise ValueError(f"metric {word!r}: allowed are {', '.join(_METRICS)}")
+    if not words:
+        raise ValueError("no metric is given")
+    return words
+
+
+def _measure(
+    a: ArrayLike,
+    b: ArrayLike,
+    words: Optional[Sequence[str]],
+    clip: bool,
+    encoding: Optional[str],
+    pixels_per_degree: float,
+    map_metric: int = 0,
+    with_map: bool = False,
+) -> Tuple[List[float], Optional[np.ndarray]]:
+    encoding = _encoding(a, b, encoding)
     a, b = _clip(a, clip), _clip(b, clip)
     if a.shape != b.shape:
         raise ValueError(f"the pictures have different shapes: {a.shape} and {b.shape}")
-    if encoding not in ("linear", "srgb"):
-        raise ValueError(f"encoding {encoding!r}: allowed is linear, srgb")
+    if clip and not len(a):
+        raise ValueError("a clip has no frame")
     desc = ffi.new("mgt_metrics_desc *")
     io.mgt_metrics_desc_init(desc, ffi.sizeof("mgt_metrics_desc"))
     frames, desc.height, desc.width, desc.channels = a.shape
     desc.srgb_encoded = encoding == "srgb"
     desc.pixels_per_degree = pixels_per_degree
-    kept = ffi.new("char[]", without_nul(words.encode())) if words is not None else ffi.NULL
+    kept = ffi.new("char[]", ",".join(words).encode()) if words is not None else ffi.NULL
     desc.metrics = kept
     pointers = [ffi.new("float *[]", [ffi.cast("float *", frame.__array_interface__["data"][0]) for frame in clip_]) for clip_ in (a, b)]
     scores = ffi.new("double[]", len(_METRICS))
@@ -54,37 +103,40 @@ def _measure(a: np.ndarray, b: np.ndarray, words: Optional[str], clip: bool, enc
 
 
 def metrics(
-    a: np.ndarray,
-    b: np.ndarray,
+    a: ArrayLike,
+    b: ArrayLike,
     metrics: Optional[Union[str, Sequence[str]]] = None,
     *,
     clip: bool = False,
-    encoding: str = "linear",
+    encoding: Optional[str] = None,
     pixels_per_degree: float = 0.0,
 ) -> Dict[str, float]:
     """Scores of picture a against b, the reference, by name; 0 is best, but for energy, ssim and flicker-ratio, where 1 is.
 
     All are NaN where a value is finite in one picture only, NaN in either, or infinite with unlike signs.
 
-    a, b       float arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied
-    metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are
-    encoding   of the values: "linear" or "srgb"
+    a, b       arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied; uint8 and uint16 stand for
+               fractions of 255 and 65535; "display" of render() is taken without its alpha; what is masked is refused
+    metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are.
+    encoding   of the values: "linear" or "srgb"; None: linear, of uint8 and uint16 sRGB, as in PNG
     pixels_per_degree  of the viewer's eye, for FLIP; 0: 67.0206, as in its papers
     """
-    words = metrics if metrics is None or isinstance(metrics, str) else ",".join(metrics)
+    words = None if metrics is None else _words(metrics)
     scores, _ = _measure(a, b, words, clip, encoding, pixels_per_degree)
-    asked = words.split(",") if words else _METRICS if np.isnan(scores).all() else ()
+    asked = words if words else _METRICS if np.isnan(scores).all() else ()
     return {name: score for name, score in zip(_METRICS, scores) if score == score or name in asked}
 
 
-def error_map(a: np.ndarray, b: np.ndarray, metric: str = "flip", *, encoding: str = "linear", pixels_per_degree: float = 0.0) -> np.ndarray:
-    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/metrics.md.
+def error_map(a: ArrayLike, b: ArrayLike, metric: str = "flip", *, encoding: Optional[str] = None, pixels_per_degree: float = 0.0) -> np.ndarray:
+    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/command.md.
 
-    NaN at pixels that cannot be compared, as those that are NaN in a alone."""
+    NaN at pixels that cannot be compared, as those that are NaN in a alone. Arrays and `encoding` are those of metrics()."""
     mapped = ("rmse", "relrmse", "flip", "hdr-flip", "ssim")
     if metric not in mapped:
         raise ValueError(f"metric {metric!r}: allowed is {', '.join(mapped)}")
-    return _measure(a, b, metric, False, encoding, pixels_per_degree, _METRICS.index(metric), True)[1]
+    errors = _measure(a, b, [metric], False, encoding, pixels_per_degree, _METRICS.index(metric), True)[1]
+    assert errors is not None
+    return errors
 
 
 def _reference(scene: Scene, frames: Sequence[int], options: Mapping[str, Any]) -> Tuple[str, Dict[str, Any]]:
@@ -126,7 +178,7 @@ def compare(
     if not isinstance(scenes, Mapping):
         listed = list(scenes) if isinstance(scenes, (list, tuple)) else [scenes]
         scenes = {os.path.splitext(os.path.basename(str(s)))[0] if isinstance(s, (str, os.PathLike)) else f"scene{i}": s for i, s in enumerate(listed)}
-    words = metrics if isinstance(metrics, str) else ",".join(metrics)
+    words = _words(metrics)
     rows = []
     for name, scene in scenes.items():
         scene = as_scene(scene).changed({**(changes or {}), **({"image.width": size[0], "image.height": size[1]} if size else {})})
@@ -143,7 +195,7 @@ def compare(
         truth = draw(method, "reference", **options)
         for method in [*methods, *(external or {})]:
             scores, _ = _measure(draw(method), truth, words, True, "linear", 0.0)
-            rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in words.split(",")}})
+            rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in words}})
     return rows
 
 

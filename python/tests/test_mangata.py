@@ -452,6 +452,49 @@ def test_metrics_on_arrays():
             bad()
 
 
+def test_whole_numbers_are_fractions_as_in_png(scene, tmp_path):
+    shown = [mangata.render(scene, method, layers=["display"], size=SMALL)["display"] for method in ("none", "mangata")]
+    floats = [picture[..., :3] / np.float32(255) for picture in shown]
+    wanted = mangata.metrics(*floats, "rmse,flip,ssim", encoding="srgb")
+    assert 0 < wanted["rmse"] < 1 and 0 < wanted["flip"] < 1 and wanted["ssim"] < 1
+    assert mangata.metrics(*shown, "rmse,flip,ssim") == wanted == mangata.metrics(*(picture[..., :3] for picture in shown), "rmse,flip,ssim", encoding="srgb")
+    assert np.array_equal(mangata.error_map(*shown), mangata.error_map(*floats, encoding="srgb"))
+    deep = [picture.astype(np.uint16) * 257 for picture in (shown[0][..., 0], shown[1][..., 0])]
+    assert mangata.metrics(*deep, "rmse") == pytest.approx(mangata.metrics(*(picture[..., 0] for picture in floats), "rmse"), rel=1e-6)
+    linear = mangata.metrics(*floats, "flip")
+    assert mangata.metrics(*shown, "flip", encoding="linear") == linear != mangata.metrics(*shown, "flip")
+    assert mangata.metrics(shown[0], floats[1], "flip", encoding="srgb")["flip"] == wanted["flip"]
+    for wrong, words in ((lambda: mangata.metrics(shown[0], floats[1]), "one picture holds whole numbers"), (lambda: mangata.metrics(shown[0][..., :3].astype(int), floats[1]), "a picture of int64")):
+        with pytest.raises(ValueError, match=words):
+            wrong()
+
+
+def test_arrays_that_have_no_scores():
+    a = np.random.default_rng(5).random((20, 30), np.float32)
+    for bad, words in (
+        (np.ma.masked_less(a, 0.5), "masked pixels"),
+        (a.astype(float) * 1e300, "beyond those of float32"),
+        (a * 1j, "a picture of complex64"),
+        (a.astype(object), "a picture of object"),
+        (np.full(a.shape, "1"), "a picture of <U1"),
+        ((row for row in a), "a picture of object"),
+        (np.zeros((20, 30, 4)), "has the shape"),
+    ):
+        for pair in ((bad, a), (a, bad)):
+            with pytest.raises(ValueError, match=words):
+                mangata.metrics(*pair, "rmse")
+    with pytest.raises(ValueError, match="a clip has no frame"):
+        mangata.metrics(np.zeros((0, 4, 4)), np.zeros((0, 4, 4)), clip=True)
+    for words in ("", [], "rmse,", "beauty"):
+        with pytest.raises(ValueError, match="metric"):
+            mangata.metrics(a, a, words)
+    wanted = mangata.metrics(a, a[::-1], "rmse,flip")
+    kinds = (np.asfortranarray(a), a.astype(np.float64), a.astype(">f4"), np.ma.masked_array(a, np.zeros(a.shape, bool)), np.repeat(a, 2, 1)[:, ::2], a.tolist())
+    for same in kinds:
+        assert mangata.metrics(same, a[::-1], "rmse, flip") == wanted
+    assert mangata.metrics(a.astype(np.float16), a, "rmse")["rmse"] < 1e-3 and mangata.metrics(a > 0.5, a > 0.5, ["rmse"]) == {"rmse": 0}
+
+
 def test_broken_pictures_have_no_scores():
     b = np.random.default_rng(3).random((20, 30, 3), np.float32)
     for value, rows in ((np.nan, 20), (np.nan, 10), (np.inf, 1), (-np.inf, 1)):
