@@ -68,6 +68,11 @@ def _words(metrics: Union[str, Sequence[str]]) -> List[str]:
     return words
 
 
+def _named(words: Sequence[str]) -> List[str]:
+    """All metrics that the words stand for, in their order: "flicker" for all of its kinds."""
+    return [name for name in _METRICS if name in words or ("flicker" in words and name.startswith("flicker-"))]
+
+
 def _measure(
     a: ArrayLike,
     b: ArrayLike,
@@ -117,13 +122,13 @@ def metrics(
 
     a, b       arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied; uint8 and uint16 stand for
                fractions of 255 and 65535; "display" of render() is taken without its alpha; what is masked is refused
-    metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are.
+    metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are. "flicker" stands for all of its kinds
     encoding   of the values: "linear" or "srgb"; None: linear, of uint8 and uint16 sRGB, as in PNG
     pixels_per_degree  of the viewer's eye, for FLIP; 0: 67.0206, as in its papers
     """
     words = None if metrics is None else _words(metrics)
     scores, _ = _measure(a, b, words, clip, encoding, pixels_per_degree)
-    asked = words if words else _METRICS if np.isnan(scores).all() else ()
+    asked = _named(words) if words else _METRICS if np.isnan(scores).all() else ()
     return {name: score for name, score in zip(_METRICS, scores) if score == score or name in asked}
 
 
@@ -195,7 +200,7 @@ def compare(
         truth = draw(method, "reference", **options)
         for method in [*methods, *(external or {})]:
             scores, _ = _measure(draw(method), truth, words, True, "linear", 0.0)
-            rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in words}})
+            rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in _named(words)}})
     return rows
 
 

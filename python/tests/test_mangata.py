@@ -495,6 +495,15 @@ def test_arrays_that_have_no_scores():
     assert mangata.metrics(a.astype(np.float16), a, "rmse")["rmse"] < 1e-3 and mangata.metrics(a > 0.5, a > 0.5, ["rmse"]) == {"rmse": 0}
 
 
+def test_flicker_stands_for_all_of_its_kinds(scene):
+    kinds = [name for name in mangata.metric_names() if name.startswith("flicker")]
+    clip = np.random.default_rng(2).random((2, 4, 20, 30), np.float32)
+    assert len(kinds) == 6 and list(mangata.metrics(*clip, "flicker", clip=True)) == kinds
+    assert list(mangata.metrics(*clip, "flicker-power", clip=True)) == ["flicker-power"]
+    rows = mangata.compare(scene, ["none"], metrics="flicker", frames=[0, 1], size=(16, 9), reference={"spatial": 1, "time_samples": 1})
+    assert [name for name in rows[0] if name not in ("scene", "method")] == kinds
+
+
 def test_broken_pictures_have_no_scores():
     b = np.random.default_rng(3).random((20, 30, 3), np.float32)
     for value, rows in ((np.nan, 20), (np.nan, 10), (np.inf, 1), (-np.inf, 1)):
