@@ -5,7 +5,7 @@ import os
 import re
 import threading
 import weakref
-from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -31,7 +31,25 @@ def methods() -> Sequence[str]:
     return names(lib.mgt_method_name)
 
 
-def _choose(words: Sequence[str], word: str, what: str) -> int:
+def split_method(method: str) -> Tuple[str, Optional[int]]:
+    """A method's name and the number of ssaaN, which has a key of its own in the scene format."""
+    number = re.fullmatch(r"ssaa([0-9]+)", method)
+    return ("ssaa", int(number[1])) if number else (method, None)
+
+
+def listed(names_: Union[str, Iterable[str]]) -> List[str]:
+    """A list of names; a single one may stand for itself."""
+    return [names_] if isinstance(names_, str) else list(names_)
+
+
+def size_changes(size: Tuple[int, int]) -> Dict[str, int]:
+    """(width, height) as changes of a scene."""
+    if len(size) != 2 or any(number != int(number) for number in size):
+        raise ValueError(f"size {size}: allowed are two whole numbers, width and height")
+    return {"image.width": int(size[0]), "image.height": int(size[1])}
+
+
+def choose(words: Sequence[str], word: str, what: str) -> int:
     if word not in words:
         raise ValueError(f"{what} {word!r}: allowed is {', '.join(words)}")
     return words.index(word)
@@ -47,8 +65,8 @@ class Context:
     def __init__(self, backend: str = "cpu", threads: int = 0, isa: str = "auto") -> None:
         desc = ffi.new("mgt_context_desc *")
         lib.mgt_context_desc_init(desc, ffi.sizeof("mgt_context_desc"))
-        desc.backend = _choose(_BACKENDS, backend, "backend")
-        desc.isa = _choose(_ISAS, isa, "isa")
+        desc.backend = choose(_BACKENDS, backend, "backend")
+        desc.isa = choose(_ISAS, isa, "isa")
         if not 0 <= threads <= 1024:
             raise ValueError(f"threads {threads}: allowed is 0, as many as the CPUs, to 1024")
         desc.threads = threads
@@ -166,7 +184,7 @@ os.register_at_fork(after_in_child=_after_fork)
 def _layer_format(layer: str) -> Tuple[int, int]:
     if layer == DISPLAY:
         return lib.MGT_LAYER_COLOR, lib.MGT_FORMAT_RGBA8_SRGB
-    place = _choose(layers(), layer, "layer")
+    place = choose(layers(), layer, "layer")
     return place, lib.MGT_FORMAT_RGB32F if lib.mgt_layer_channels(place) == 3 else lib.MGT_FORMAT_R32F
 
 
@@ -204,7 +222,7 @@ def _context(backend: str, threads: int, isa: str) -> Context:
 def render(
     scene: SceneLike,
     method: Optional[str] = None,
-    layers: Sequence[str] = ("color",),
+    layers: Union[str, Sequence[str]] = ("color",),
     frame: int = 0,
     *,
     size: Optional[Tuple[int, int]] = None,
@@ -222,7 +240,7 @@ def render(
 
     scene    a Scene, a dictionary, or the path of a scene file
     method   "mangata", "podee-pixel", "ssaa4", "reference", …, with its own `spatial` and `time_samples`, not the scene's; None: the scene's, with all its options
-    layers   "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
+    layers   names, or a single one: "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
              "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
     frame    from 0; its time is start + frame / fps
     size     (width, height) in pixels; crop: (x, y, width, height) of it
@@ -235,18 +253,17 @@ def render(
     """
     given = dict(changes or {})
     if size is not None:
-        given["image.width"], given["image.height"] = int(size[0]), int(size[1])
+        given.update(size_changes(size))
     if method is not None:
-        # The number replaces the scene's own key `spatial`, which may not stand beside ssaaN.
-        number = re.fullmatch(r"ssaa([0-9]+)", method)
-        name = given["quality.method"] = "ssaa" if number else method
+        name, number = split_method(method)
+        given["quality.method"] = name
+        if number is not None and "spatial" in options:
+            raise ValueError("spatial: write the number into ssaaN")
         if name in methods():  # else the scene says what is wrong
             # As by --method of the command: the method brings its numbers of samples along, whatever the scene's are.
             given["quality.spatial"], given["quality.time_samples"] = _samples(name)
-        if number and "spatial" in options:
-            raise ValueError("spatial: write the number into ssaaN")
-        if number:
-            given["quality.spatial"] = int(number[1])
+        if number is not None:
+            given["quality.spatial"] = number
     given.update({f"quality.{key}": value for key, value in options.items()})
     scene = as_scene(scene)
     if given:
@@ -263,6 +280,12 @@ def render(
     if not 0 < width <= view.image.width or not 0 < height <= view.image.height:
         raise ValueError(f"crop {crop}: it lies outside the picture of {view.image.width} x {view.image.height} pixels")
     result = {}
+    layers = listed(layers)
+    if not layers:
+        raise ValueError("no layer is given")
+    for layer in out or {}:
+        if layer not in layers:
+            raise ValueError(f"out: layer {layer!r} is not among the layers that are rendered, {', '.join(layers)}")
     for layer in layers:
         shape, dtype = _shape(layer, width, height)
         result[layer] = out[layer] if out and layer in out else np.empty(shape, dtype)

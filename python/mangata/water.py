@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Queries about the water."""
-from typing import Any, Dict, Optional, Sequence, TypedDict, cast
+from typing import Any, Dict, Optional, Sequence, TypedDict, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import ffi, lib, text
 from .errors import MangataError, SceneError
+from .rendering import listed
 from .scenes import SceneLike, as_scene
 
 _ANSWERS = {"height": ("double *", np.float64, ()), "normal": ("float *", np.float32, (3,)), "velocity": ("float *", np.float32, (3,)), "jacobian": ("float *", np.float32, ()), "foam": ("float *", np.float32, ())}
@@ -28,6 +29,12 @@ def _pointer(kind: str, array: np.ndarray):
     return ffi.cast(kind, array.__array_interface__["data"][0])
 
 
+def _unmasked(name: str, array: ArrayLike) -> ArrayLike:
+    if np.ma.is_masked(array):
+        raise ValueError(f"{name} has masked values; those of compressed() or filled() are taken")
+    return array
+
+
 def _raise(status: int) -> None:
     message = text(lib.mgt_last_error(ffi.NULL))
     if status == lib.MGT_ERROR_SCENE:
@@ -39,7 +46,7 @@ def query(
     scene: SceneLike,
     points: ArrayLike,
     time: Optional[float] = None,
-    answers: Sequence[str] = ("height", "normal"),
+    answers: Union[str, Sequence[str]] = ("height", "normal"),
     *,
     frame: int = 0,
     least_wavelength: float = 0.0,
@@ -49,7 +56,7 @@ def query(
 
     points   array (…, 2) of x and z in metres, float64; other types are copied
     time     seconds; None: that of `frame`
-    answers  "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…);
+    answers  names, or a single one: "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…);
              "foam" float32 (…), fraction that the scene's foam covers
     least_wavelength  metres: shorter waves count in the result's "covariance" alone: xx, xz, zz of their slopes
     exact    heights within 1e-9 m, in about twice the time
@@ -58,7 +65,7 @@ def query(
     """
     scene = as_scene(scene)  # the waves of its frames live as long as it does
     view = scene.frame(frame)
-    points = np.ascontiguousarray(points, np.float64)
+    points = np.ascontiguousarray(_unmasked("points", points), np.float64)
     if points.ndim < 1 or points.shape[-1] != 2:
         raise ValueError(f"points need the shape (…, 2), x and z in metres, not {points.shape}")
     shape = points.shape[:-1]
@@ -67,7 +74,7 @@ def query(
     asked.least_wavelength, asked.exact = least_wavelength, int(exact)
     asked.foam_share, asked.foam_persistence = view.foam, view.foam_persistence
     result: Dict[str, Any] = {}
-    for name in answers:
+    for name in listed(answers):
         if name not in _ANSWERS:
             raise ValueError(f"answer {name!r}: allowed is {', '.join(_ANSWERS)}")
         kind, dtype, more = _ANSWERS[name]
@@ -92,7 +99,9 @@ def trace(
     """
     scene = as_scene(scene)  # the waves of its frames live as long as it does
     view = scene.frame(frame)
-    origins, directions = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
+    origins, directions = np.broadcast_arrays(
+        np.asarray(_unmasked("origins", origins), np.float64), np.asarray(_unmasked("directions", directions), np.float64)
+    )
     if origins.shape[-1:] != (3,):
         raise ValueError(f"origins and directions need the shape (…, 3), not {origins.shape}")
     rays = np.ascontiguousarray(np.concatenate([origins, directions], axis=-1))

@@ -245,6 +245,17 @@ def test_renders_into_arrays_of_the_caller(scene):
             mangata.render(scene, layers=["coverage"], size=SMALL, out={"coverage": bad})
 
 
+def test_arguments_that_would_do_nothing_are_refused(scene):
+    with pytest.raises(ValueError, match="out: layer 'mask' is not among the layers that are rendered, color"):
+        mangata.render(scene, size=SMALL, out={"mask": np.zeros((36, 64), np.float32)})
+    for size in ((64.5, 36), (64,), (64, 36, 3)):
+        with pytest.raises(ValueError, match="two whole numbers"):
+            mangata.render(scene, size=size)
+    assert mangata.render(scene, layers=["mask"], size=(np.float64(64), np.int64(36)))["mask"].shape == (36, 64)
+    with pytest.raises(ValueError, match="points has masked values"):
+        mangata.query(scene, np.ma.masked_array(np.zeros((2, 2)), [[0, 1], [0, 0]]))
+
+
 def test_bad_arguments(scene):
     for arguments in ({"layers": ["light"]}, {"crop": (60, 0, 10, 10)}, {"crop": (0, 0, 100, 1)}, {"backend": "vulkan"}, {"isa": "mmx"}, {"method": "nope"}, {"spatial": 0, "method": "reference"}):
         with pytest.raises((ValueError, mangata.MangataError)):
@@ -571,6 +582,13 @@ def test_compare_with_a_method_of_ones_own(scene):
     errors = {row["method"]: row["rmse"] for row in rows}
     assert errors["mangata"] < errors["none"] and len(lines) == 8
     assert rows[2]["energy"] == 0 and rows[2]["relrmse"] == pytest.approx(1)
+
+
+def test_one_name_stands_for_itself(scene):
+    assert list(mangata.render(scene, layers="coverage", size=(16, 9))) == ["coverage"]
+    assert mangata.query(scene, [[0, 0]], answers="height")["height"].shape == (1,)
+    with pytest.raises(ValueError, match="no layer is given"):
+        mangata.render(scene, layers=[], size=SMALL)
 
 
 def test_compare_where_there_is_more_than_the_surface(scene):
