@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Metrics on arrays, comparisons of methods, pictures from files."""
+import itertools
 import math
 import os
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import ffi, io, lib, names
-from .rendering import render
+from .rendering import DISPLAY, choose, layers, listed, render, size_changes, split_method
+from .rendering import methods as method_names
 from .scenes import Scene, SceneLike, as_scene, new_error, path_bytes, raise_io, without_nul
 
 _METRICS = names(io.mgt_metric_name)
@@ -146,8 +148,9 @@ def error_map(a: ArrayLike, b: ArrayLike, metric: str = "flip", *, encoding: Opt
 
 def _reference(scene: Scene, frames: Sequence[int], options: Mapping[str, Any]) -> Tuple[str, Dict[str, Any]]:
     """The method of the reference and its options: where there is more to see than the surface from above, ssaa takes as many samples and refracted rays."""
-    options = {"seed": 1, **options}
-    views = [scene.changed({"quality.method": "reference"}).frame(frame) for frame in frames]
+    shown = scene.changed({"quality.method": "reference"})
+    views = [shown.frame(frame) for frame in frames]
+    options = {"seed": (views[0].quality.seed + 1) % 2**64, **options}
     if all(lib.mgt_supports(lib.MGT_BACKEND_NULL, view, lib.MGT_LAYER_COVERAGE) for view in views):
         return "reference", options
     options = {"spatial": 8, "time_samples": 8, **options}
@@ -158,14 +161,33 @@ def _reference(scene: Scene, frames: Sequence[int], options: Mapping[str, Any]) 
     return "ssaa", options
 
 
+def _named_scenes(scenes: Union[SceneLike, Iterable[SceneLike], Mapping[str, SceneLike]]) -> Dict[str, SceneLike]:
+    """Scenes by name, of a file its own without folder and extension; a second one of a name has a number, as in the command: high, high-2."""
+    if isinstance(scenes, Mapping):
+        # A scene itself has one value that is a text, its description.
+        if any(isinstance(scene, (Scene, os.PathLike)) or (isinstance(scene, str) and name != "description") for name, scene in scenes.items()):
+            return dict(scenes)
+        scenes = [scenes]
+        alone = True
+    else:
+        alone = False
+    found: Dict[str, SceneLike] = {}
+    for place, scene in enumerate([scenes] if isinstance(scenes, (Scene, str, bytes, os.PathLike)) else scenes):
+        path = os.path.basename(os.fsdecode(scene)) if isinstance(scene, (str, bytes, os.PathLike)) else ""
+        base = os.path.splitext(path)[0] or ("scene" if alone else f"scene{place}")
+        free = (name for number in itertools.count(2) if (name := f"{base}-{number}") not in found)
+        found[base if base not in found else next(free)] = scene
+    return found
+
+
 def compare(
-    scenes: Union[SceneLike, Sequence[SceneLike], Mapping[str, SceneLike]],
-    methods: Sequence[str],
+    scenes: Union[SceneLike, Iterable[SceneLike], Mapping[str, SceneLike]],
+    methods: Union[str, Sequence[str]],
     *,
     layer: str = "coverage",
-    frames: Sequence[int] = (0,),
+    frames: Iterable[int] = (0,),
     reference: Optional[Mapping[str, Any]] = None,
-    external: Optional[Mapping[str, Callable[[Scene, int], np.ndarray]]] = None,
+    external: Optional[Mapping[str, Callable[[Scene, int], ArrayLike]]] = None,
     metrics: Union[str, Sequence[str]] = "rmse,relrmse,energy,flip",
     size: Optional[Tuple[int, int]] = None,
     changes: Optional[Mapping[str, Any]] = None,
@@ -173,34 +195,48 @@ def compare(
 ) -> List[Dict[str, Any]]:
     """Renders methods and the reference, and scores each method's clip against it: a list of {"scene", "method", metric: score, …}.
 
-    scenes     one, a list, or a dictionary of names and scenes
-    reference  options of the method "reference": {"spatial": 8, "time_samples": 8}; in scenes with objects, and under water, of ssaa with refraction "truth"
-    external   methods of your own: names and functions of a scene and a frame that return the layer's array
+    scenes     one, a list, or a dictionary of names and scenes, each a Scene or a path; of files the name is their own, x of "a/x.json", and x-2 of "b/x.json" after it
+    methods    names, or a single one
+    layer      what is scored, "coverage", "color", …; "display" as it is seen
+    reference  options of the method "reference": {"spatial": 8, "time_samples": 8}; in scenes with objects, and under water, of ssaa with refraction "truth".
+               Its seed is that of the scene's `quality` + 1, which is not the methods'
+    external   methods of your own: names, which no other method has, and functions of a scene and a frame that return the layer's array
+    metrics    as in metrics()
     progress   called with a line before each picture
     """
-    if isinstance(scenes, Mapping) and not any(isinstance(v, Scene) for v in scenes.values()):
-        scenes = {"scene": scenes}
-    if not isinstance(scenes, Mapping):
-        listed = list(scenes) if isinstance(scenes, (list, tuple)) else [scenes]
-        scenes = {os.path.splitext(os.path.basename(str(s)))[0] if isinstance(s, (str, os.PathLike)) else f"scene{i}": s for i, s in enumerate(listed)}
+    found, frames, ours, external = _named_scenes(scenes), list(frames), listed(methods), dict(external or {})
+    if not frames:
+        raise ValueError("no frame is given")
+    choose(layers(), layer, "layer")
+    for name in ours:
+        if name not in external:
+            choose(method_names(), split_method(name)[0], "method")
+    for name, function in external.items():
+        if split_method(name)[0] in method_names():
+            raise ValueError(f"external {name!r}: a method has this name")
+        if not callable(function):
+            raise ValueError(f"external {name!r}: it is no function of a scene and a frame")
     words = _words(metrics)
     rows = []
-    for name, scene in scenes.items():
-        scene = as_scene(scene).changed({**(changes or {}), **({"image.width": size[0], "image.height": size[1]} if size else {})})
+    for title, given in found.items():
+        scene = as_scene(given).changed({**(changes or {}), **(size_changes(size) if size else {})})
 
-        def draw(method: str, title: str = "", **options: Any) -> np.ndarray:
+        def draw(method: str, label: str, wanted: Optional[np.ndarray] = None, **options: Any) -> np.ndarray:
             pictures = []
             for frame in frames:
                 if progress:
-                    progress(f"{name}, {title or method}, frame {frame}")
-                pictures.append(external[method](scene, frame) if external and method in external else render(scene, method, [layer], frame, **options)[layer])
+                    progress(f"{title}, {label}, frame {frame}")
+                picture = external[method](scene, frame) if method in external else render(scene, method, [layer], frame, **options)[layer]
+                pictures.append(_clip(picture, False)[0])
+                if wanted is not None and pictures[-1].shape != wanted.shape[1:]:
+                    raise ValueError(f"{method}, frame {frame}: the picture has the shape {pictures[-1].shape}, the reference {wanted.shape[1:]}")
             return np.stack(pictures)
 
         method, options = _reference(scene, frames, reference or {})
         truth = draw(method, "reference", **options)
-        for method in [*methods, *(external or {})]:
-            scores, _ = _measure(draw(method), truth, words, True, "linear", 0.0)
-            rows.append({"scene": name, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in _named(words)}})
+        for method in [*ours, *(name for name in external if name not in ours)]:
+            scores, _ = _measure(draw(method, method, truth), truth, words, True, "srgb" if layer == DISPLAY else "linear", 0.0)
+            rows.append({"scene": title, "method": method, **{m: s for m, s in zip(_METRICS, scores) if m in _named(words)}})
     return rows
 
 

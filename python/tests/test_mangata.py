@@ -584,6 +584,60 @@ def test_compare_with_a_method_of_ones_own(scene):
     assert rows[2]["energy"] == 0 and rows[2]["relrmse"] == pytest.approx(1)
 
 
+TINY = {"size": (16, 9), "reference": {"spatial": 1, "time_samples": 2}, "metrics": "rmse"}
+
+
+def test_compare_refuses_names_of_methods(scene):
+    def black(scene, frame):
+        return np.zeros((9, 16))
+
+    for name in ("reference", "none", "ssaa", "ssaa7"):
+        with pytest.raises(ValueError, match=f"external '{name}': a method has this name"):
+            mangata.compare(scene, ["none"], external={name: black}, **TINY)
+    drawn = []
+    for wrong, words in (
+        ({"external": {"mine": 3}}, "external 'mine': it is no function"),
+        ({"external": {"mine": lambda scene, frame: np.zeros((9, 17))}}, "mine, frame 0: the picture has the shape"),
+        ({"methods": ["n"]}, "method 'n': allowed is none"),
+        ({"layer": "light"}, "layer 'light': allowed is"),
+        ({"frames": []}, "no frame is given"),
+        ({"metrics": "beauty"}, "metric 'beauty': allowed"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            mangata.compare(scene, **{"methods": ["none"], "progress": drawn.append, **TINY, **wrong})
+    assert drawn == ["scene0, reference, frame 0", "scene0, none, frame 0", "scene0, mine, frame 0"]
+    rows = mangata.compare(scene, ["mine", "none"], external={"mine": black}, **TINY)
+    assert [row["method"] for row in rows] == ["mine", "none"]
+
+
+def test_compare_scores_every_scene(tmp_path):
+    paths = []
+    for name, height in (("a/x", 0.1), ("b/x", 0.3), ("b/x-2", 0.2)):
+        paths.append(tmp_path / f"{name}.yaml")
+        paths[-1].parent.mkdir(exist_ok=True)
+        paths[-1].write_text(f"mangata: 1\nwater: {{waves: [{{amplitude: {height}, a: 0.3, b: 0.4, c: -1}}]}}\n")
+    rows = mangata.compare(paths, "none", layer="color", **TINY)
+    assert [row["scene"] for row in rows] == ["x", "x-2", "x-2-2"] and len({row["rmse"] for row in rows}) == 3
+    for same in ({"A": str(paths[0]), "B": paths[1]}, {"A": str(paths[0]), "B": str(paths[1])}, {"A": mangata.load(paths[0]), "B": mangata.load(paths[1])}):
+        assert mangata.compare(same, ["none"], layer="color", **TINY) == [{**row, "scene": name} for row, name in zip(rows, "AB")]
+    document = {"description": "one", "water": {"waves": [{"amplitude": 0.1, "a": 0.3, "b": 0.4, "c": -1}]}}
+    assert mangata.compare(document, ["none"], layer="color", **TINY) == [{**rows[0], "scene": "scene"}]
+    assert [row["scene"] for row in mangata.compare((path for path in paths[:2]), ["none"], frames=iter([0]), layer="color", **TINY)] == ["x", "x-2"]
+
+
+def test_compare_draws_the_reference_by_other_rays(scene):
+    for seed in (0, 1, 2**64 - 1):
+        rows = mangata.compare(scene, ["reference"], changes={"quality.seed": seed}, size=(16, 9), reference={"spatial": 1, "time_samples": 1}, metrics="rmse")
+        assert rows[0]["rmse"] > 0, seed
+
+
+def test_compare_scores_what_is_displayed(scene):
+    rows = mangata.compare(scene, ["none"], layer="display", external={"mine": lambda scene, frame: mangata.render(scene, "none", "display")["display"]}, **TINY)
+    truth, none = (mangata.render(scene, size=(16, 9), layers="display", **words)["display"] for words in
+                   ({"method": "reference", "spatial": 1, "time_samples": 2, "seed": 1}, {"method": "none"}))
+    assert 0 < rows[0]["rmse"] == rows[1]["rmse"] == mangata.metrics(none, truth, "rmse")["rmse"]
+
+
 def test_one_name_stands_for_itself(scene):
     assert list(mangata.render(scene, layers="coverage", size=(16, 9))) == ["coverage"]
     assert mangata.query(scene, [[0, 0]], answers="height")["height"].shape == (1,)
