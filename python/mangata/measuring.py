@@ -122,8 +122,8 @@ def metrics(
 
     All are NaN where a value is finite in one picture only, NaN in either, or infinite with unlike signs.
 
-    a, b       arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied; uint8 and uint16 stand for
-               fractions of 255 and 65535; "display" of render() is taken without its alpha; what is masked is refused
+    a, b       arrays (h, w) or (h, w, 3); with clip=True (frames, h, w) or (frames, h, w, 3), scored as one clip. float32 is not copied; uint8 and uint16 stand
+               for fractions of 255 and 65535; "display" of render() is taken without its alpha; what is masked is refused
     metrics    "rmse,flip" or a list; None: all that are defined, of pictures that cannot be compared all that there are. "flicker" stands for all of its kinds
     encoding   of the values: "linear" or "srgb"; None: linear, of uint8 and uint16 sRGB, as in PNG
     pixels_per_degree  of the viewer's eye, for FLIP; 0: 67.0206, as in its papers
@@ -195,7 +195,8 @@ def compare(
 ) -> List[Dict[str, Any]]:
     """Renders methods and the reference, and scores each method's clip against it: a list of {"scene", "method", metric: score, …}.
 
-    scenes     one, a list, or a dictionary of names and scenes, each a Scene or a path; of files the name is their own, x of "a/x.json", and x-2 of "b/x.json" after it
+    scenes     one, a list, or a dictionary of names and scenes, each a Scene or a path; of files the name is their own, x of "a/x.json", and x-2 of "b/x.json"
+               after it
     methods    names, or a single one
     layer      what is scored, "coverage", "color", …; "display" as it is seen
     reference  options of the method "reference": {"spatial": 8, "time_samples": 8}; in scenes with objects, and under water, of ssaa with refraction "truth".

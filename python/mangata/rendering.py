@@ -239,8 +239,10 @@ def render(
     """Renders a frame: a dictionary of numpy arrays by layer, top row first.
 
     scene    a Scene, a dictionary, or the path of a scene file
-    method   "mangata", "podee-pixel", "ssaa4", "reference", …, with its own `spatial` and `time_samples`, not the scene's; None: the scene's, with all its options
-    layers   names, or a single one: "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows; "normal", "refraction" float32 (h, w, 3);
+    method   "mangata", "podee-pixel", "ssaa4", "reference", …, with its own `spatial` and `time_samples`, not the scene's; None: the scene's, with all of its
+             options
+    layers   names, or a single one: "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows;
+             "normal", "refraction" float32 (h, w, 3);
              "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
     frame    from 0; its time is start + frame / fps
     size     (width, height) in pixels; crop: (x, y, width, height) of it

@@ -56,7 +56,8 @@ def query(
 
     points   array (…, 2) of x and z in metres, float64; other types are copied
     time     seconds; None: that of `frame`
-    answers  names, or a single one: "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second; "jacobian" float32 (…);
+    answers  names, or a single one: "height" float64 (…), metres; "normal" float32 (…, 3), unit; "velocity" float32 (…, 3), metres a second;
+             "jacobian" float32 (…);
              "foam" float32 (…), fraction that the scene's foam covers
     least_wavelength  metres: shorter waves count in the result's "covariance" alone: xx, xz, zz of their slopes
     exact    heights within 1e-9 m, in about twice the time
