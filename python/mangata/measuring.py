@@ -218,9 +218,10 @@ def compare(
         if not callable(function):
             raise ValueError(f"external {name!r}: it is no function of a scene and a frame")
     words = _words(metrics)
+    given = {**(changes or {}), **(size_changes(size) if size else {})}
+    opened = {title: as_scene(scene).changed(given) for title, scene in found.items()}
     rows = []
-    for title, given in found.items():
-        scene = as_scene(given).changed({**(changes or {}), **(size_changes(size) if size else {})})
+    for title, scene in opened.items():
 
         def draw(method: str, label: str, wanted: Optional[np.ndarray] = None, **options: Any) -> np.ndarray:
             pictures = []

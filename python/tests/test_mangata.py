@@ -611,6 +611,8 @@ def test_compare_refuses_names_of_methods(scene):
     ):
         with pytest.raises(ValueError, match=words):
             mangata.compare(scene, **{"methods": ["none"], "progress": drawn.append, **TINY, **wrong})
+    with pytest.raises(FileNotFoundError):
+        mangata.compare([scene, "/nowhere/scene.yaml"], ["none"], progress=drawn.append, **TINY)
     assert drawn == ["scene0, reference, frame 0", "scene0, none, frame 0", "scene0, mine, frame 0"]
     rows = mangata.compare(scene, ["mine", "none"], external={"mine": black}, **TINY)
     assert [row["method"] for row in rows] == ["mine", "none"]
