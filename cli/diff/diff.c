@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/diff/diff_metrics.h"
 #include "cli/diff/diff_prepare.h"
@@ -13,6 +14,8 @@
 #include "cli/common/numbers.h"
 #include "cli/common/options.h"
 #include "cli/common/verbs.h"
+
+enum { DIFF_PATH = sizeof(frame_path) + 64 };
 
 typedef struct diff_request {
     console out;
@@ -27,6 +30,7 @@ typedef struct diff_request {
     truth_metrics truth;
     diff_maps maps;
     bool encoding_given;
+    uint32_t width, height, channels; /* of the first frame; 0: none was read */
 } diff_request;
 
 static int add_picture(const option *o, void *place, const char *value)
@@ -133,6 +137,42 @@ static int check_second_reference(const diff_request *r)
     return EXIT_CODE_OK;
 }
 
+static bool measures(const diff_request *r) { return r->metrics.wanted.metrics || r->truth.wants.texture || r->truth.wants.specks; }
+
+/* Prints the path of a picture of A, B or the second reference. */
+static int print_path(const diff_request *r, size_t which, uint32_t frame, char path[DIFF_PATH])
+{
+    return frame_path_print(&r->names[which], frame, path, DIFF_PATH) ? EXIT_CODE_OK
+                                                                      : console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[which]);
+}
+
+static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
+{
+    char path[DIFF_PATH];
+    file_error error;
+    const int code = print_path(r, which, frame, path);
+    return code != EXIT_CODE_OK || picture_read(image, path, r->layer, &error) == FILE_OK ? code : console_file_error(&error);
+}
+
+/* A first picture that does not exist is told before the maps of many frames are looked for. */
+static int check_maps(const diff_request *r)
+{
+    const frame_path *const inputs[DIFF_INPUTS] = {&r->names[0], &r->names[1], r->paths[2] ? &r->names[2] : NULL,
+                                                   r->prepare.mask ? &r->prepare.mask_name : NULL};
+    for (size_t i = 0; i < 3 && r->paths[i]; i++) {
+        const uint32_t frame = frame_list_at(&r->frames, 0);
+        char path[DIFF_PATH];
+        float_image unused = {0};
+        int code = print_path(r, i, frame, path);
+        if (code == EXIT_CODE_OK && access(path, F_OK) != 0)
+            code = read_picture(r, i, frame, &unused);
+        float_image_free(&unused);
+        if (code != EXIT_CODE_OK)
+            return code;
+    }
+    return diff_maps_check(&r->maps, r->names[0].numbered, &r->frames, inputs);
+}
+
 static int check_request(diff_request *r)
 {
     if (!r->paths[1])
@@ -154,17 +194,38 @@ static int check_request(diff_request *r)
     if (r->names[0].numbered && !r->frames.count)
         return console_error(EXIT_CODE_USAGE, "numbered names need --frames, such as --frames 0-59");
     if (!r->names[0].numbered && r->frames.count)
-        return console_error(EXIT_CODE_USAGE, "--frames needs numbered names, such as frame_%%04d.pfm");
+        return console_error(EXIT_CODE_USAGE, "--frames needs numbered names, such as frame_%%04d.pfm%s",
+                             frame_path_folder_is_marked(&r->names[0]) ? "; a frame number is allowed in the file's name alone" : "");
     if (!r->frames.count)
         frame_list_span(&r->frames, 0, 0);
     if (r->flicker && frame_list_length(&r->frames) < 2)
         return console_error(EXIT_CODE_USAGE, "--flicker needs numbered names and at least two frames");
     int code = r->paths[2] ? check_second_reference(r) : EXIT_CODE_OK;
     if (code == EXIT_CODE_OK && r->maps.wanted)
-        code = diff_maps_check(&r->maps, r->names[0].numbered, &r->frames, r->paths);
+        code = check_maps(r);
     r->metrics.wanted.metrics |= diff_maps_metrics(&r->maps);
-    const bool measures = r->metrics.wanted.metrics || r->truth.wants.texture || r->truth.wants.specks;
-    return code == EXIT_CODE_OK && measures ? check_metrics(r) : code;
+    return code == EXIT_CODE_OK && measures(r) ? check_metrics(r) : code;
+}
+
+/* Warns of options that no metric or map reads. */
+static void warn_of_options(const diff_request *r)
+{
+    const uint32_t metrics = r->metrics.wanted.metrics;
+    const struct {
+        const char *name, *reader;
+        bool given, read;
+    } options[] = {
+        {"pixels-per-degree", "--metrics or --error-map flip and hdr-flip", r->metrics.wanted.pixels_per_degree > 0,
+         metrics & (1u << CLIP_FLIP | 1u << CLIP_HDR_FLIP)},
+        {"glint-threshold", "--metrics flicker-bright, flicker-glints and flicker-sizes", r->metrics.wanted.glint_threshold > 0,
+         metrics & (1u << CLIP_FLICKER_BRIGHT | 1u << CLIP_FLICKER_GLINTS | 1u << CLIP_FLICKER_SIZES)},
+        {"encoding", "--metrics, --error-map and --second-reference", r->encoding_given, measures(r) || r->paths[2]},
+        {"error-top", ".png maps of rmse, relrmse and flicker", r->maps.top > 0, diff_maps_show_top(&r->maps)},
+        {"overwrite", "--error-map", r->maps.overwrite, r->maps.wanted},
+    };
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
+        if (options[i].given && !options[i].read)
+            console_note(&r->out, "mangata: warning: --%s does nothing here; it is for %s", options[i].name, options[i].reader);
 }
 
 /* PNG hold encoded values of colour, the other formats linear light. Fractions such as coverage are the same in all. */
@@ -178,17 +239,28 @@ static void warn_of_encoding(const diff_request *r)
                          r->paths[0], r->paths[i]);
 }
 
-static int read_picture(const diff_request *r, size_t which, uint32_t frame, float_image *image)
+/* The frames of a clip have one size, and metrics take grey and colours. */
+static int check_clip(diff_request *r, uint32_t number, const float_image *image)
 {
-    const frame_path *name = &r->names[which];
-    char path[sizeof name->before + 64 + sizeof name->after];
-    file_error error;
-    if (!frame_path_print(name, frame, path, sizeof path))
-        return console_error(EXIT_CODE_USAGE, "%s: the path is too long", r->paths[which]);
-    return picture_read(image, path, r->layer, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+    char path[DIFF_PATH];
+    const int code = print_path(r, 0, number, path);
+    if (code != EXIT_CODE_OK)
+        return code;
+    if (measures(r) && image->channels != 1 && image->channels != 3)
+        return console_error(EXIT_CODE_BAD_INPUT, "%s: it has %u channels; --metrics and --error-map take pictures of 1 or 3%s", path, image->channels,
+                             may_have_layers(r) ? ", such as a --layer has" : "");
+    if (!r->channels) {
+        r->width = image->width;
+        r->height = image->height;
+        r->channels = image->channels;
+    }
+    if (image->width == r->width && image->height == r->height && image->channels == r->channels)
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, the first frame %u x %u of %u; the frames of a clip must agree", path,
+                         image->width, image->height, image->channels, image->channels == 1 ? "" : "s", r->width, r->height, r->channels);
 }
 
-static int read_frame(const diff_request *r, uint32_t number, diff_frame *frame)
+static int read_frame(diff_request *r, uint32_t number, diff_frame *frame)
 {
     const float_image *a = &frame->images[0];
     for (size_t i = 0; i < frame->count; i++) {
@@ -202,15 +274,21 @@ static int read_frame(const diff_request *r, uint32_t number, diff_frame *frame)
             return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width,
                                  a->height, a->channels, a->channels == 1 ? "" : "s", r->paths[i], b->width, b->height, b->channels);
     }
-    return EXIT_CODE_OK;
+    return check_clip(r, number, a);
 }
 
-/* Sets image to next − image. */
-static void to_difference(float_image *image, const float_image *next)
+/* Sets the images of A and B to next − image. Steps from or to an infinity that both pictures have are equal. */
+static void to_difference(float_image images[2], const float_image next[2])
 {
-    const size_t count = (size_t)image->width * image->height * image->channels;
-    for (size_t i = 0; i < count; i++)
-        image->pixels[i] = next->pixels[i] - image->pixels[i];
+    const size_t count = (size_t)images[0].width * images[0].height * images[0].channels;
+    for (size_t i = 0; i < count; i++) {
+        float *a = &images[0].pixels[i], *b = &images[1].pixels[i];
+        const float next_a = next[0].pixels[i], next_b = next[1].pixels[i];
+        const bool comparable = image_values_comparable(*a, *b) && image_values_comparable(next_a, next_b);
+        const bool finite = isfinite(*a) && isfinite(*b) && isfinite(next_a) && isfinite(next_b);
+        *a = finite ? next_a - *a : comparable ? INFINITY : NAN;
+        *b = finite ? next_b - *b : INFINITY;
+    }
 }
 
 static int add_frame(const diff_request *r, const float_image pair[2], float_image previous[2], image_metrics *metrics)
@@ -220,10 +298,7 @@ static int add_frame(const diff_request *r, const float_image pair[2], float_ima
         return image_metrics_add(metrics, &pair[0], &pair[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
     if (!previous[0].pixels)
         return EXIT_CODE_OK;
-    if (previous[0].width != pair[0].width || previous[0].height != pair[0].height || previous[0].channels != pair[0].channels)
-        return console_error(EXIT_CODE_FAILED, "the frames of %s do not all have the same size", r->paths[0]);
-    to_difference(&previous[0], &pair[0]);
-    to_difference(&previous[1], &pair[1]);
+    to_difference(previous, pair);
     return image_metrics_add(metrics, &previous[0], &previous[1], &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
 }
 
@@ -279,6 +354,14 @@ static int measure(diff_request *r, image_metrics *metrics)
 /* A JSON number, or null for NaN and infinities, which JSON does not have. */
 static json_t *json_number(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
+static void print_score(const char *name, double score, double floor)
+{
+    printf("%-15s%.6g", name, score);
+    if (isfinite(floor))
+        printf("; noise floor %.6g", floor);
+    putchar('\n');
+}
+
 static int print_report(diff_request *r, const image_metrics *m)
 {
     const double rmse = image_metrics_rmse(m), relative = image_metrics_relative_rmse(m), ratio = image_metrics_mean_ratio(m);
@@ -307,17 +390,30 @@ static int print_report(diff_request *r, const image_metrics *m)
         return console_print_json(report);
     }
     printf("%-15s%" PRIu64 "\n", r->flicker ? "frame steps" : "frames", m->frames);
-    printf("%-15s%.6g\n%-15s%.6g\n%-15s%.6g\n", r->flicker ? "flicker" : "rmse", rmse, "relative rmse", relative, "mean ratio", ratio);
+    printf("%-15s%.6g\n", r->flicker ? "flicker" : "rmse", rmse);
+    print_score("relative rmse", relative, diff_metrics_floor(&r->metrics, CLIP_RELATIVE_RMSE));
+    print_score("mean ratio", ratio, diff_metrics_floor(&r->metrics, CLIP_ENERGY));
     printf("%-15s%.6g at x %u, y %u, channel %u", "maximum", m->max_difference, m->max_x, m->max_y, m->max_channel);
     if (r->names[0].numbered)
         printf(", frame %u", frame);
     putchar('\n');
     if (m->mismatches)
-        printf("%-15s%" PRIu64 " values are infinite or not a number in one picture\n", "mismatches", m->mismatches);
+        printf("%-15s%" PRIu64 " values are %s\n", "mismatches", m->mismatches, image_mismatch_text);
     const int code = diff_metrics_print(&r->metrics);
     if (code == EXIT_CODE_OK)
         diff_truth_print(&r->truth);
     return code;
+}
+
+static int check_limit(const diff_request *r, const image_metrics *metrics)
+{
+    const double rmse = image_metrics_rmse(metrics);
+    if (metrics->mismatches > 0)
+        return console_error(EXIT_CODE_DIFFERENT, "%s against %s: %" PRIu64 " values are %s, so no limit is kept", r->paths[0], r->paths[1],
+                             metrics->mismatches, image_mismatch_text);
+    if (!(rmse <= r->max_rmse))
+        return console_error(EXIT_CODE_DIFFERENT, "%s against %s: RMSE %g is above %g", r->paths[0], r->paths[1], rmse, r->max_rmse);
+    return EXIT_CODE_OK;
 }
 
 static int run(void *request)
@@ -332,13 +428,10 @@ static int run(void *request)
     if ((code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
     warn_of_encoding(r);
+    warn_of_options(r);
     if (!(r->out.quiet && !r->out.json) && (code = print_report(r, &metrics)) != EXIT_CODE_OK)
         return code;
-    const double rmse = image_metrics_rmse(&metrics);
-    if (r->gated && (!(rmse <= r->max_rmse) || metrics.mismatches > 0))
-        return console_error(EXIT_CODE_DIFFERENT, "%s against %s: RMSE %g is above %g%s", r->paths[0], r->paths[1], rmse, r->max_rmse,
-                             metrics.mismatches ? ", or values are not comparable" : "");
-    return EXIT_CODE_OK;
+    return r->gated ? check_limit(r, &metrics) : EXIT_CODE_OK;
 }
 
 static const option diff_options[] = {

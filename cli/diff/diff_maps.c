@@ -49,6 +49,9 @@ uint32_t diff_maps_metrics(const diff_maps *maps)
     return set;
 }
 
+/* Whether the errors of a metric have the greatest value 1. */
+static bool is_bounded(clip_metric metric) { return metric == CLIP_FLIP || metric == CLIP_HDR_FLIP || metric == CLIP_SSIM; }
+
 static output_options options_of(const diff_maps *maps) { return (output_options){.overwrite = maps->overwrite, .cancel = interrupt_flag()}; }
 
 static int print_path(const diff_map *map, uint32_t frame, char path[PATH_SIZE])
@@ -57,38 +60,62 @@ static int print_path(const diff_map *map, uint32_t frame, char path[PATH_SIZE])
                                                                 : console_error(EXIT_CODE_USAGE, "--error-map %s: the path is too long", map->path);
 }
 
-/* The same name, or another one of the same file. */
 static bool same_file(const char *a, const char *b)
 {
-    struct stat one, other;
-    return strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-static int check_name(const diff_maps *maps, int place, bool numbered, const char *const inputs[3])
+/* Whether two paths name one file, which need not exist. */
+static bool same_name(const char *a, const char *b)
+{
+    char folders[2][PATH_SIZE] = {"./", "./"};
+    const char *const paths[] = {a, b};
+    const char *names[2];
+    for (int i = 0; i < 2; i++) {
+        const char *slash = strrchr(paths[i], '/');
+        names[i] = slash ? slash + 1 : paths[i];
+        if (slash)
+            snprintf(folders[i], sizeof folders[i], "%.*s", (int)(names[i] - paths[i]), paths[i]);
+    }
+    return strcmp(names[0], names[1]) == 0 && (strcmp(folders[0], folders[1]) == 0 || same_file(folders[0], folders[1]));
+}
+
+static int check_number(const diff_map *map, bool numbered)
+{
+    if (map->name.numbered == numbered)
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_USAGE, "--error-map %s: %s", map->path,
+                         numbered ? "several frames are compared; number the files: flip_%04d.png" : "one picture is compared; leave the frame number out");
+}
+
+/* Checks the file of map `place` for a frame: it is no input and no other map. */
+static int check_file(const diff_maps *maps, int place, uint32_t frame, const char *path, const frame_path *const inputs[DIFF_INPUTS])
 {
     const diff_map *map = &maps->maps[clip_mapped[place]];
-    if (map->name.numbered != numbered)
-        return console_error(EXIT_CODE_USAGE, "--error-map %s: %s", map->path,
-                             numbered ? "several frames are compared; number the files: flip_%04d.png" : "one picture is compared; leave the frame number out");
-    for (int i = 0; i < 3; i++)
-        if (inputs[i] && same_file(inputs[i], map->path))
-            return console_error(EXIT_CODE_USAGE, "--error-map %s: that picture is compared", map->path);
+    char other[PATH_SIZE];
+    for (int i = 0; i < DIFF_INPUTS; i++)
+        if (inputs[i] && frame_path_print(inputs[i], frame, other, sizeof other) && same_file(other, path))
+            return console_error(EXIT_CODE_USAGE, "--error-map %s: that picture is compared, as %s", map->path, other);
     for (int i = 0; i < place; i++)
-        if (maps->maps[clip_mapped[i]].path && strcmp(maps->maps[clip_mapped[i]].path, map->path) == 0)
+        if (maps->maps[clip_mapped[i]].path && frame_path_print(&maps->maps[clip_mapped[i]].name, frame, other, sizeof other) && same_name(other, path))
             return console_error(EXIT_CODE_USAGE, "--error-map %s: two maps of one name", map->path);
     return EXIT_CODE_OK;
 }
 
-int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const char *const inputs[3])
+int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const frame_path *const inputs[DIFF_INPUTS])
 {
     const output_options options = options_of(maps);
     for (int i = 0; i < CLIP_MAPPED; i++) {
         const diff_map *map = &maps->maps[clip_mapped[i]];
-        int code = map->path ? check_name(maps, i, numbered, inputs) : EXIT_CODE_OK;
+        int code = map->path ? check_number(map, numbered) : EXIT_CODE_OK;
         for (uint64_t f = 0; map->path && f < frame_list_length(frames) && code == EXIT_CODE_OK; f++) {
             char path[PATH_SIZE];
             file_error error;
-            code = print_path(map, frame_list_at(frames, f), path);
+            const uint32_t frame = frame_list_at(frames, f);
+            code = print_path(map, frame, path);
+            if (code == EXIT_CODE_OK)
+                code = check_file(maps, i, frame, path, inputs);
             if (code == EXIT_CODE_OK && output_file_check(path, &options, &error) != FILE_OK)
                 code = console_file_error(&error);
         }
@@ -96,6 +123,14 @@ int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *fram
             return code;
     }
     return EXIT_CODE_OK;
+}
+
+bool diff_maps_show_top(const diff_maps *maps)
+{
+    for (int i = 0; i < CLIP_MAPPED; i++)
+        if (maps->maps[clip_mapped[i]].path && maps->maps[clip_mapped[i]].format == PICTURE_PNG && !is_bounded(clip_mapped[i]))
+            return true;
+    return false;
 }
 
 int diff_maps_prepare(diff_maps *maps, size_t pixels)
@@ -129,8 +164,7 @@ static file_status write_png(const char *path, uint32_t width, uint32_t height, 
 
 static int write_map(const diff_maps *maps, clip_metric metric, const char *path, uint32_t width, uint32_t height, double score)
 {
-    const bool bounded = metric == CLIP_FLIP || metric == CLIP_HDR_FLIP || metric == CLIP_SSIM;
-    const double top = maps->top > 0 && !bounded ? maps->top : 1;
+    const double top = maps->top > 0 && !is_bounded(metric) ? maps->top : 1;
     const diff_map *map = &maps->maps[metric];
     const number_text score_text = number_print(score), top_text = number_print(top);
     metadata_entry entries[4] = {{"mangata_version", mgt_version()}, {"error_map", clip_metric_name(metric)}};

@@ -8,6 +8,9 @@
 #include "cli/common/options.h"
 #include "image/metrics_clip.h"
 
+/* The pictures that are read: A, B, the second reference and the mask. */
+enum { DIFF_INPUTS = 4 };
+
 /* The map of one metric. */
 typedef struct diff_map {
     const char *path; /* as given; NULL: no map of this metric */
@@ -30,9 +33,12 @@ option_set option_error_map;
 /* The set of metrics that have a map: bits 1u << clip_metric. */
 uint32_t diff_maps_metrics(const diff_maps *maps);
 
-/* Checks the names of the maps: numbered if there are `numbered` frames, none twice, none of `inputs`, which are three paths or NULL, and no existing file
+/* Checks the names of the maps: numbered if there are `numbered` frames, none twice, none of the files of `inputs` (NULL: none), however spelt, and no existing file
  * without --overwrite. Returns an exit code; errors are printed. */
-int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const char *const inputs[3]);
+int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const frame_path *const inputs[DIFF_INPUTS]);
+
+/* Whether some map shows errors without a greatest value in colours, which --error-top is for. */
+bool diff_maps_show_top(const diff_maps *maps);
 
 /* Allocates the maps for pictures of `pixels` pixels. They are kept from frame to frame. Returns an exit code; errors are printed. */
 int diff_maps_prepare(diff_maps *maps, size_t pixels);

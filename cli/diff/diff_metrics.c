@@ -45,7 +45,7 @@ static int failure(const file_error *error)
     return error->status == FILE_ARGUMENT ? console_error(EXIT_CODE_FAILED, "%s", error->text) : console_file_error(error);
 }
 
-static int add_noise(diff_metrics *m, const float_image *b, const float_image *b2)
+static int add_noise(diff_metrics *m, const float_image *b, const float_image *b2, uint64_t left_out)
 {
     float_image mean;
     file_error error;
@@ -53,6 +53,7 @@ static int add_noise(diff_metrics *m, const float_image *b, const float_image *b
         return console_file_error(&error);
     if (noise_mean(&mean, b, b2, &error) != FILE_OK)
         return failure(&error);
+    clip_metrics_leave_out(m->noise, left_out);
     const file_status status = clip_metrics_add(m->noise, b, &mean, NULL, NULL, &error);
     float_image_free(&mean);
     return status == FILE_OK ? EXIT_CODE_OK : failure(&error);
@@ -76,6 +77,7 @@ int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame, 
     int code = diff_maps_prepare(maps, (size_t)a->width * a->height);
     if (code != EXIT_CODE_OK)
         return code;
+    clip_metrics_leave_out(m->clip, frame->left_out);
     if (clip_metrics_add(m->clip, a, b, &maps->pixels, &result, &error) != FILE_OK)
         return failure(&error);
     code = diff_maps_write(maps, number, a->width, a->height, &result.scores);
@@ -85,7 +87,7 @@ int diff_metrics_add(diff_metrics *m, uint32_t number, const diff_frame *frame, 
     json_object_set_new(object, "frame", json_integer(number));
     if (json_array_append_new(m->per_frame, object) != 0)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    return frame->count == 3 ? add_noise(m, b, &frame->images[2]) : EXIT_CODE_OK;
+    return frame->count == 3 ? add_noise(m, b, &frame->images[2], frame->left_out) : EXIT_CODE_OK;
 }
 
 static int get_scores(const diff_metrics *m, clip_scores *scores)
@@ -101,6 +103,14 @@ static int get_floors(const diff_metrics *m, clip_scores *floors)
     for (int i = 0; i < CLIP_METRICS; i++)
         floors->values[i] = NAN;
     return !m->noise || clip_metrics_noise(m->noise, floors, &error) == FILE_OK ? EXIT_CODE_OK : console_file_error(&error);
+}
+
+double diff_metrics_floor(const diff_metrics *m, clip_metric metric)
+{
+    clip_scores floors;
+    file_error error;
+    const bool known = m->noise && is_wanted(m, metric) && clip_metrics_noise(m->noise, &floors, &error) == FILE_OK;
+    return known ? floors.values[metric] : NAN;
 }
 
 int diff_metrics_report(diff_metrics *m, json_t *report)

@@ -25,6 +25,9 @@ int diff_metrics_add(diff_metrics *metrics, uint32_t number, const diff_frame *f
  * code; errors are printed. */
 int diff_metrics_report(diff_metrics *metrics, json_t *report);
 
+/* The noise floor of a metric; NaN: it is not measured, or there is no second reference. */
+double diff_metrics_floor(const diff_metrics *metrics, clip_metric metric);
+
 /* Prints the scores as lines of text, except those that diff always prints. Returns an exit code; errors are printed. */
 int diff_metrics_print(const diff_metrics *metrics);
 

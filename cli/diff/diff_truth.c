@@ -36,14 +36,15 @@ int diff_truth_report(const truth_metrics *t, json_t *report)
         failed |= json_object_set_new(report, "noiseless_rmse", json_number(noise_sums_rmse(&t->noise)));
         failed |= json_object_set_new(report, "noise_floor", json_number(noise_sums_floor(&t->noise)));
     }
+    const char *no_specks = truth_metrics_specks_missing(t), *no_texture = truth_metrics_texture_missing(t);
     if (t->wants.specks)
-        failed |= json_object_set_new(object_of(report, "metrics"), "specks", truth_specks_json(t));
-    if (t->wants.texture) {
-        const char *missing = truth_metrics_texture_missing(t);
-        failed |= json_object_set_new(object_of(report, "metrics"), "texture", truth_texture_json(t));
-        if (missing)
-            failed |= json_object_set_new(object_of(report, "unavailable"), "texture", json_string(missing));
-    }
+        failed |= json_object_set_new(object_of(report, "metrics"), "specks", no_specks ? json_null() : truth_specks_json(t));
+    if (t->wants.specks && no_specks)
+        failed |= json_object_set_new(object_of(report, "unavailable"), "specks", json_string(no_specks));
+    if (t->wants.texture)
+        failed |= json_object_set_new(object_of(report, "metrics"), "texture", t->mismatches ? json_null() : truth_texture_json(t));
+    if (t->wants.texture && no_texture)
+        failed |= json_object_set_new(object_of(report, "unavailable"), "texture", json_string(no_texture));
     return failed ? console_error(EXIT_CODE_FAILED, "out of memory") : EXIT_CODE_OK;
 }
 
@@ -80,7 +81,9 @@ void diff_truth_print(const truth_metrics *t)
 {
     if (t->has_second)
         printf("%-15s%.6g\n%-15s%.6g\n", "noiseless rmse", noise_sums_rmse(&t->noise), "noise floor", noise_sums_floor(&t->noise));
-    if (t->wants.specks) {
+    if (t->wants.specks && truth_metrics_specks_missing(t)) {
+        printf("%-15sunavailable: %s\n", "specks", truth_metrics_specks_missing(t));
+    } else if (t->wants.specks) {
         const speck_figures f = truth_metrics_specks(t);
         printf("%-15s%" PRIu64 " of %" PRIu64 " pixels, %.6g", "specks", t->specks, t->pixels, f.share);
         if (t->has_second)

@@ -8,6 +8,8 @@ typedef struct row_sums {
     double a, b, b_squared, difference_squared;
 } row_sums;
 
+const char image_mismatch_text[] = "not a number, or infinite in one picture only";
+
 bool image_values_comparable(float a, float b) { return (isfinite(a) && isfinite(b)) || a == b; }
 
 static void note_difference(image_metrics *metrics, double difference, uint32_t x, uint32_t y, uint32_t channel)

@@ -26,6 +26,8 @@ struct clip_metrics {
     clip_metrics_desc desc;
     size_t pixels;
     image_metrics sums;
+    uint64_t left_out;           /* pixels of each frame that do not count */
+    bool incomparable;           /* values of the last frame were not comparable */
     double totals[CLIP_METRICS]; /* sums over frames of what is a mean over frames */
     flip *flip;
     flicker *flicker;
@@ -332,6 +334,20 @@ static file_status add_flicker(clip_metrics *m, float *map, clip_frame *frame, f
     return status;
 }
 
+/* Takes back what was made of values that are not comparable. A flicker score is of a frame and the one before. */
+static void withhold(clip_metrics *m, const image_metrics *sums, const float_image *a, const float_image *b, float *const *map, clip_scores *scores)
+{
+    const bool before = m->incomparable;
+    m->incomparable = sums->mismatches > 0;
+    for (int i = CLIP_FLIP; i < CLIP_METRICS; i++)
+        if (m->incomparable || (before && i >= CLIP_FLICKER))
+            scores->values[i] = NAN;
+    for (size_t v = 0; m->incomparable && v < m->pixels * m->desc.channels; v++)
+        for (int i = 0; i < CLIP_MAPPED && !image_values_comparable(a->pixels[v], b->pixels[v]); i++)
+            if (measures(m, clip_mapped[i]) && map[clip_mapped[i]])
+                map[clip_mapped[i]][v / m->desc.channels] = NAN;
+}
+
 static file_status check_frame(const clip_metrics *m, const float_image *image, file_error *error)
 {
     if (image->width == m->desc.width && image->height == m->desc.height && image->channels == m->desc.channels)
@@ -358,6 +374,8 @@ file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_
     image_metrics sums = {0};
     image_metrics_add(&sums, a, b, error);
     image_metrics_add(&m->sums, a, b, error);
+    sums.values -= m->left_out * m->desc.channels;
+    m->sums.values -= m->left_out * m->desc.channels;
     score_sums(m, &sums, &result.scores);
     if (measures(m, CLIP_RMSE) && map[CLIP_RMSE])
         error_map(m, a, b, map[CLIP_RMSE]);
@@ -374,6 +392,7 @@ file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_
         score_ssim(m, map[CLIP_SSIM], &result.scores);
     if (measures(m, CLIP_YEE))
         score_yee(m, &result.scores);
+    withhold(m, &sums, a, b, map, &result.scores);
     for (int i = CLIP_FLIP; i <= CLIP_YEE; i++)
         m->totals[i] += result.scores.values[i];
     if (frame)
@@ -382,6 +401,8 @@ file_status clip_metrics_add(clip_metrics *m, const float_image *a, const float_
 }
 
 /* ---- the clip ---- */
+
+void clip_metrics_leave_out(clip_metrics *m, uint64_t pixels) { m->left_out = pixels; }
 
 file_status clip_metrics_scores(const clip_metrics *m, clip_scores *scores, file_error *error)
 {
@@ -398,7 +419,7 @@ file_status clip_metrics_scores(const clip_metrics *m, clip_scores *scores, file
     const file_status status = flicker_measure(m->flicker, &flickers, error);
     const double values[] = {flickers.error, flickers.power, flickers.ratio, flickers.bright, flickers.glints, flickers.sizes};
     for (int i = CLIP_FLICKER; i < CLIP_METRICS; i++)
-        if (measures(m, (clip_metric)i))
+        if (measures(m, (clip_metric)i) && m->sums.mismatches == 0)
             scores->values[i] = values[i - CLIP_FLICKER];
     return status;
 }
@@ -422,6 +443,8 @@ const char *clip_metrics_missing(const clip_metrics *m, clip_metric metric)
         return NULL;
     if (m->sums.frames == 0)
         return "no frame was measured";
+    if (m->sums.mismatches > 0)
+        return image_mismatch_text;
     if (metric == CLIP_YEE)
         return m->yee_error.text;
     return metric < CLIP_FLICKER_BRIGHT ? "flicker needs two frames" : "no pixel is above the glint threshold";

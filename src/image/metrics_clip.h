@@ -85,8 +85,12 @@ typedef struct clip_maps {
 } clip_maps;
 
 /* Adds a frame. `maps` and `frame` may be NULL. FILE_ARGUMENT: sizes or channels are not those of the description. After this or FILE_MEMORY nothing was added.
- * Values that are not finite are mismatches in clip_metrics_sums() and 0 for all other scores. */
+ * RMSE, relative RMSE and energy are of the values that are finite in both pictures. All other metrics have no score (NaN) as soon as values are not
+ * comparable (image_values_comparable()), and maps are NaN there; equal infinities stand as 0. */
 file_status clip_metrics_add(clip_metrics *metrics, const float_image *a, const float_image *b, const clip_maps *maps, clip_frame *frame, file_error *error);
+
+/* Pixels of the frames added from now on that a mask has made black in A and B. RMSE is the mean over the other pixels. */
+void clip_metrics_leave_out(clip_metrics *metrics, uint64_t pixels);
 
 /* Scores of the frames added so far, at least one. Returns FILE_OK or FILE_MEMORY. */
 file_status clip_metrics_scores(const clip_metrics *metrics, clip_scores *scores, file_error *error);

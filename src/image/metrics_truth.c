@@ -78,6 +78,18 @@ static void make_luminance(float *luminance, const float_image *image, bool srgb
     }
 }
 
+/* Values of all pictures against those of B. */
+static uint64_t count_mismatches(const truth_frame *frame)
+{
+    const float_image *b = &frame->images[1];
+    const size_t values = (size_t)b->width * b->height * b->channels;
+    uint64_t count = 0;
+    for (size_t k = 0; k < frame->count; k += 2)
+        for (size_t i = 0; i < values; i++)
+            count += !image_values_comparable(frame->images[k].pixels[i], b->pixels[i]);
+    return count;
+}
+
 static uint64_t count_specks(const truth_metrics *t, const bool *counted, int picture, int truth)
 {
     const specks_input input = {t->luminance[picture], t->luminance[truth], counted, t->width, t->height};
@@ -113,6 +125,7 @@ file_status truth_metrics_add(truth_metrics *t, const truth_frame *frame, file_e
     if (a->width != t->width || a->height != t->height || a->channels != t->channels)
         return file_error_set(error, FILE_ARGUMENT, "a frame has %u x %u pixels of %u channel%s, the first one %u x %u of %u; they must agree", a->width,
                               a->height, a->channels, a->channels == 1 ? "" : "s", t->width, t->height, t->channels);
+    t->mismatches += count_mismatches(frame);
     for (size_t i = 0; i < frame->count; i++)
         make_luminance(t->luminance[i], &frame->images[i], t->srgb_encoded);
     const texture_input input = {t->luminance[0], {t->luminance[1], t->luminance[2]}, frame->counted};
@@ -132,8 +145,12 @@ speck_figures truth_metrics_specks(const truth_metrics *t)
     return (speck_figures){(double)t->specks / pixels, mean, mean / pixels, excess, excess / pixels};
 }
 
+const char *truth_metrics_specks_missing(const truth_metrics *t) { return t->mismatches ? image_mismatch_text : NULL; }
+
 const char *truth_metrics_texture_missing(const truth_metrics *t)
 {
+    if (t->mismatches)
+        return image_mismatch_text;
     return t->bands && texture_bands(t->bands) > 0 ? NULL : "texture needs at least five rows";
 }
 

@@ -25,6 +25,7 @@ typedef struct truth_metrics {
     texture *bands;                   /* NULL: texture is not wanted */
     noise_sums noise;                 /* zeroed without a second reference */
     bool has_second;                  /* a frame had a second reference */
+    uint64_t mismatches;              /* number of values that are not comparable; above 0 texture and specks are not defined */
     uint64_t pixels;                  /* number of pixels in which specks were searched, over all frames */
     uint64_t specks;                  /* number of specks of A against B */
     uint64_t reference_specks[2];     /* number of specks of B against the second reference, and of that against B */
@@ -49,8 +50,9 @@ typedef struct speck_figures {
 
 speck_figures truth_metrics_specks(const truth_metrics *metrics);
 
-/* Why there are no scores of texture; NULL: there are some. */
+/* Why there are no scores of texture, or no count of specks; NULL: there are some. */
 const char *truth_metrics_texture_missing(const truth_metrics *metrics);
+const char *truth_metrics_specks_missing(const truth_metrics *metrics);
 
 /* Frees the members and zeroes the struct. */
 void truth_metrics_free(truth_metrics *metrics);

@@ -76,15 +76,6 @@ static float_image image_of(const mgt_metrics_desc *desc, const float *pixels)
     return (float_image){.width = desc->width, .height = desc->height, .channels = desc->channels, .pixels = (float *)pixels};
 }
 
-/* An error map has no error where values cannot be compared. */
-static void mark_incomparable(const mgt_metrics_desc *desc, const float *a, const float *b, float *map)
-{
-    const size_t pixels = (size_t)desc->width * desc->height;
-    for (size_t v = 0; v < pixels * desc->channels; v++)
-        if (!image_values_comparable(a[v], b[v]))
-            map[v / desc->channels] = NAN;
-}
-
 mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *const *a, const float *const *b, size_t frames, double *scores,
                                   uint32_t map_metric, float *map, mgt_io_error *error)
 {
@@ -119,8 +110,6 @@ mgt_io_status mgt_metrics_measure(const mgt_metrics_desc *desc, const float *con
     clip_metrics_free(metrics);
     if (code != FILE_OK)
         return io_error_of_file(error, &problem, NULL);
-    if (map)
-        mark_incomparable(desc, a[frames - 1], b[frames - 1], map);
     for (int m = 0; m < CLIP_METRICS; m++)
         scores[m] = comparable && d.metrics & 1u << m ? result.values[m] : NAN;
     return MGT_IO_OK;

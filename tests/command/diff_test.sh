@@ -86,6 +86,44 @@ cp m.pfm m_1.pfm
 cp half.pfm m_2.pfm
 expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --mask m_#.pfm --json
 [[ $(number values) == 1 && $(number rmse) == 1.0 ]] || fail "a mask of one frame: $(cat stdout.txt)"
+# All figures of RMSE are of the pixels that the mask selects.
+pfm m.pfm 0 0 0 1
+pfm twice.pfm 1 2 1 4
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --mask m.pfm --metrics rmse,relrmse,energy --second-reference zero.pfm --error-map rmse=masked.pfm --json
+[[ $(number metrics.rmse) == "$(number rmse)" && $(number metrics.relative_rmse) == "$(number relative_rmse)" && $(number metrics.energy) == "$(number mean_ratio)" &&
+    $(number per_frame.0.rmse) == 2.0 && $(number noise_floors.rmse) == "$(number noise_floor)" ]] || fail "metrics in a mask: $(cat stdout.txt)"
+grep -q '"score": "2"' masked.pfm.json || fail "record of a masked map: $(cat masked.pfm.json)"
+expect 0 '' "$MANGATA" diff twice.pfm b.pfm --mask m.pfm --metrics rmse --second-reference a.pfm --json
+[[ $(number noise_floors.rmse) == 1.0 && $(number noise_floor) == 1.0 ]] || fail "floors in a mask: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --mask m.pfm --metrics rmse --json
+[[ $(number metrics.rmse) == 1.41421356* && $(number per_frame.2.rmse) == 2.0 ]] || fail "metrics of a clip in a mask: $(cat stdout.txt)"
+
+# Every floor is printed behind its score.
+expect 0 '' "$MANGATA" diff p_2.pfm a.pfm --second-reference b.pfm --metrics relrmse,energy
+[[ $(grep -Ec '^(relative rmse|mean ratio) .*; noise floor 0\.[0-9]+$' stdout.txt) == 2 ]] || fail "floors: $(cat stdout.txt)"
+
+# Infinities that both clips have do not tell them apart, and those of one do.
+for frame in 0 1 2; do cp i.pfm far_$frame.pfm; done
+expect 0 '' "$MANGATA" diff far_#.pfm far_#.pfm --frames 0-2 --flicker --max-rmse 0
+cp a.pfm far_1.pfm
+expect 0 '' "$MANGATA" diff far_#.pfm far_#.pfm --frames 0-2 --flicker --max-rmse 0
+cp a.pfm near_0.pfm
+cp far_1.pfm near_1.pfm
+cp far_2.pfm near_2.pfm
+expect 0 '' "$MANGATA" diff far_#.pfm near_#.pfm --frames 0-2 --flicker --json
+[[ $(number mismatches) == 1 ]] || fail "an infinity in one clip: $(cat stdout.txt)"
+
+# Values that are not comparable have no score, and maps say where.
+"$MANGATA" diff n.pfm n.pfm --max-rmse 9 >/dev/null 2>stderr.txt
+grep -q '1 values are not a number, or infinite in one picture only, so no limit is kept$' stderr.txt || fail "NaN in both: $(cat stderr.txt)"
+expect 0 '' "$MANGATA" diff n.pfm b.pfm --metrics rmse,flip,ssim,specks --error-map flip=lost.pfm --json
+[[ $(number metrics.flip) == null && $(number metrics.ssim) == null && $(number metrics.specks) == null && $(number metrics.rmse) == 0.0 && $(number per_frame.0.flip) == null &&
+    $(number unavailable.flip) == 'not a number, or infinite in one picture only' ]] || fail "scores of NaN: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" diff lost.pfm b.pfm --json
+[[ $(number mismatches) == 1 ]] || fail "a map of NaN: $(od -f lost.pfm)"
+expect 0 '' "$MANGATA" diff i.pfm i.pfm --metrics flip,ssim --json
+[[ $(number metrics.flip) == 0.0 && $(number metrics.ssim) == 1.0 ]] || fail "equal infinities: $(cat stdout.txt)"
+
 expect 64 '--display x: allowed is a number of stops' "$MANGATA" diff a.pfm b.pfm --display x
 expect 64 'leave --encoding out' "$MANGATA" diff a.pfm b.pfm --display 0 --encoding linear
 
@@ -155,6 +193,15 @@ ln -s a.pfm also_a.pfm
 expect 64 'also_a.pfm: that picture is compared' "$MANGATA" diff a.pfm b.pfm --error-map rmse=also_a.pfm --overwrite
 expect 64 '--error-map flip=f.png: the metric has a map already, e.png' "$MANGATA" diff a.pfm b.pfm --error-map flip=e.png --error-map flip=f.png
 expect 64 'two maps of one name' "$MANGATA" diff a.pfm b.pfm --error-map rmse=e.png --error-map flip=e.png
+expect 64 'two maps of one name' "$MANGATA" diff a.pfm b.pfm --error-map rmse=e.png --error-map "flip=$PWD/./e.png"
+expect 64 'two maps of one name' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map rmse=e_#.png --error-map flip=e_%d.png --overwrite
+# No map takes the place of a picture that is read, however it is spelt.
+cp a.pfm kept.pfm
+expect 64 'that picture is compared, as ./a.pfm' "$MANGATA" diff ./a.pfm b.pfm --error-map rmse=a.pfm --overwrite
+expect 64 'that picture is compared, as m.pfm' "$MANGATA" diff a.pfm b.pfm --mask m.pfm --error-map rmse=./m.pfm --overwrite
+expect 64 'that picture is compared, as q_0.pfm' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map rmse=q_%d.pfm --overwrite
+same a.pfm kept.pfm
+expect 66 'no_0.pfm: .*No such file' timeout 10 "$MANGATA" diff no_#.pfm no_#.pfm --frames 0-99999999 --error-map rmse=e_#.png
 expect 64 'number the files' "$MANGATA" diff p_#.pfm q_#.pfm --frames 0-2 --error-map flip=e.png
 expect 64 'leave the frame number out' "$MANGATA" diff a.pfm b.pfm --error-map flip=e_#.png
 expect 64 'above 0' "$MANGATA" diff a.pfm b.pfm --error-map flip=e.png --error-top 0
@@ -168,6 +215,29 @@ expect 64 'linear and srgb' "$MANGATA" diff a.pfm b.pfm --metrics flip --encodin
 expect 64 'from 4 to 400' "$MANGATA" diff a.pfm b.pfm --metrics flip --pixels-per-degree 3
 expect 64 'above 0' "$MANGATA" diff a.pfm b.pfm --metrics flicker --glint-threshold 0
 expect 64 'unlike encoding' "$MANGATA" diff a.pfm scene.png --metrics flip
+
+# The frames of a clip have one size; metrics take grey and colours; options that nothing reads are told.
+cp scene.png mixed_0.png
+works render "$simple" -o mixed_1.png --size 32x18 --quiet
+expect 1 'mixed_1.png has 32 x 18 pixels of 3 channels, the first frame 64 x 36 of 3; the frames of a clip must agree' "$MANGATA" diff mixed_#.png mixed_#.png --frames 0-1
+"$MANGATA" diff mixed_#.png mixed_#.png --frames 0-1 --error-map flip=e_#.png >stdout.txt 2>stderr.txt
+[[ $? == 1 ]] && grep -q mixed_1.png stderr.txt || fail "maps of mixed sizes: $(cat stderr.txt)"
+rm e_0.png
+expect 64 'frames needs numbered names, such as frame_%04d.pfm; a frame number is allowed in the file.s name alone' "$MANGATA" diff %04d/c.pfm %04d/c.pfm --frames 0-1
+while read -r option reader; do
+    # shellcheck disable=SC2086 # words
+    expect 0 "warning: ${option%%=*} does nothing here; it is for .*$reader" "$MANGATA" diff a.pfm b.pfm ${option/=/ }
+done <<'END'
+--error-top=3 .png maps
+--glint-threshold=1 flicker-glints
+--pixels-per-degree=60 flip
+--encoding=linear --metrics
+--overwrite --error-map
+END
+expect 0 'warning: --error-top does nothing' "$MANGATA" diff a.pfm b.pfm --error-map flip=t.png --error-top 3
+expect 0 'warning: --pixels-per-degree does nothing' "$MANGATA" diff a.pfm b.pfm --metrics ssim --pixels-per-degree 60
+expect 0 '' "$MANGATA" diff a.pfm b.pfm --metrics flip --pixels-per-degree 60 --encoding linear
+[[ ! -s stderr.txt ]] || fail "a warning of options that are read: $(cat stderr.txt)"
 
 # Pictures of colour in unlike encodings are compared as they are stored, which is said.
 works render "$simple" -o kind.png "${small[@]}" --quiet

@@ -130,7 +130,7 @@ expect 66 'b_2.pfm' diff p_#.pfm a_#.pfm --second-reference b_#.pfm --frames 0-2
 cp low_a.pfm p_2.pfm
 cp low_b.pfm a_2.pfm
 cp low_c.pfm b_2.pfm
-expect 1 'a frame has 4 x 4 pixels of 1 channel, the first one 4 x 11 of 1; they must agree' diff p_#.pfm a_#.pfm --second-reference b_#.pfm --frames 0-2 --metrics specks
+expect 1 'p_2.pfm has 4 x 4 pixels of 1 channel, the first frame 4 x 11 of 1; the frames of a clip must agree' diff p_#.pfm a_#.pfm --second-reference b_#.pfm --frames 0-2 --metrics specks
 
 # Sizes, channels, values without meaning.
 expect 1 'low_a.pfm has 4 x 4 of 1; they must agree' diff p.pfm a.pfm --second-reference low_a.pfm
@@ -141,5 +141,8 @@ grey p.pfm 10 nan inf 0 max
 grey a.pfm 10 inf nan max 0
 grey b.pfm 10 max max inf nan
 expect 0 '' diff p.pfm a.pfm --second-reference b.pfm --metrics texture,specks --json
+[[ $(number metrics.specks) == null && $(number metrics.texture) == null && $(number unavailable.specks) == 'not a number, or infinite in one picture only' ]] ||
+    fail "values without meaning: $(cat stdout.txt)"
 expect 0 '' diff p.pfm a.pfm --second-reference b.pfm --metrics texture,specks --display 100
+[[ $(grep -c 'unavailable: not a number' stdout.txt) == 2 ]] || fail "values without meaning: $(cat stdout.txt)"
 finish
