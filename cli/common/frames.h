@@ -12,7 +12,7 @@ typedef struct frame_range {
     uint32_t first, last, step;
 } frame_range;
 
-enum { FRAME_RANGES = 256, FRAME_LIMIT = 99999999 };
+enum { FRAME_RANGES = 256, FRAME_LIMIT = 99999999, FRAME_LIST_TEXT = FRAME_RANGES * sizeof("99999999-99999999:99999999,") + 8 };
 #define FRAME_LIMIT_TEXT "99999999" /* the same as text */
 
 /* Increasing frame numbers as ranges. */
@@ -33,7 +33,7 @@ uint64_t frame_list_length(const frame_list *list);
 /* The frame at place `index` of the list, which must be below its length. */
 uint32_t frame_list_at(const frame_list *list, uint64_t index);
 
-/* Prints the list as frame_list_parse() reads it. If it does not fit, it ends with "…". */
+/* Prints the list as frame_list_parse() reads it. If it does not fit, it ends with "…"; FRAME_LIST_TEXT characters hold any. */
 void frame_list_print(const frame_list *list, char *text, size_t size);
 
 /* One of `count` shards of some work, such as that of one machine. It has the elements of a list whose index modulo `count` is `index`. count 0: all

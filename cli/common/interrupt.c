@@ -15,7 +15,7 @@ static void note_signal(int signal)
 
 static void end_at_once(int signal)
 {
-    static const char text[] = "mangata: stopped while a file was read\n";
+    static const char text[] = "mangata: stopped by a signal\n";
     /* If it fails, nothing can be done about it. */
     const ssize_t unused = write(STDERR_FILENO, text, sizeof text - 1);
     (void)unused;

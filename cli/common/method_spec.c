@@ -51,7 +51,8 @@ static bool set_option(method_spec *spec, char name[METHOD_SPEC_TEXT], const cha
     const bool apart = strncmp(word, "method=", 7) == 0 || strncmp(word, "refraction=", 11) == 0 || strncmp(word, "seed=", 5) == 0;
     if (!apart && quality_option_set(&spec->given, word, length, word + length + 1, &known, reason, sizeof reason)) {
         add_words(spec, name, word, length);
-        return true;
+        return strlen(name) < METHOD_SPEC_TEXT - 1 ||
+               fail(wrong, wrong_size, "%.*s…: the name with its options has more than %d characters", 32, name, METHOD_SPEC_TEXT - 2);
     }
     if (known)
         return fail(wrong, wrong_size, "%s: %s", spec->name, reason);
@@ -76,7 +77,7 @@ bool method_spec_parse(method_spec *spec, const char *text, size_t length, char 
 {
     *spec = (method_spec){.given = quality_options_none()};
     if (length >= sizeof spec->name)
-        return fail(wrong, wrong_size, "%.*s…: the name is too long", 32, text);
+        return fail(wrong, wrong_size, "%.*s…: the name with its options has %zu characters; allowed are %d", 32, text, length, METHOD_SPEC_TEXT - 1);
     memcpy(spec->name, text, length);
     char words[METHOD_SPEC_TEXT], name[METHOD_SPEC_TEXT];
     memcpy(words, spec->name, sizeof words);

@@ -10,7 +10,7 @@
 
 #include "cli/common/quality_options.h"
 
-enum { METHOD_SPEC_TEXT = 96 };
+enum { METHOD_SPEC_TEXT = 201 };
 
 typedef struct method_spec {
     char name[METHOD_SPEC_TEXT];        /* as given, but with each option's and value's first name instead of an alias */

@@ -14,6 +14,7 @@ typedef struct compare_line {
     const char *methods;
     const char *external[COMPARE_METHODS];
     size_t external_count;
+    bool metrics_given;
     const char *gates[COMPARE_GATES];
     bool gate_flicker[COMPARE_GATES];
     size_t gate_count;
@@ -52,8 +53,9 @@ static int add_external(const option *o, void *place, const char *value)
 
 static int set_metrics(const option *o, void *place, const char *value)
 {
-    compare_request *r = place;
-    if (truth_words_parse(value, &r->truth, &r->metrics))
+    compare_line *line = place;
+    line->metrics_given = true;
+    if (truth_words_parse(value, &line->request.truth, &line->request.metrics))
         return EXIT_CODE_OK;
     return console_error(EXIT_CODE_USAGE, "--%s %s: allowed are %s, %s, separated by commas", o->name, value, clip_metric_words, truth_words_text);
 }
@@ -113,6 +115,18 @@ static int resolve_gates(compare_request *r, const compare_line *line)
     return EXIT_CODE_OK;
 }
 
+/* Flicker that is asked for needs two frames; nothing else may be left to measure. */
+static int check_flicker(const compare_line *line)
+{
+    const compare_request *r = &line->request;
+    if (!line->metrics_given || !(r->metrics & CLIP_ALL_FLICKER) || frame_list_length(&r->frames) > 1)
+        return EXIT_CODE_OK;
+    if (!(r->metrics & ~(uint32_t)CLIP_ALL_FLICKER) && !r->truth.texture && !r->truth.specks)
+        return console_error(EXIT_CODE_USAGE, "--metrics flicker needs at least two --frames");
+    console_note(&r->out, "mangata: warning: --metrics flicker needs at least two --frames; it is left out");
+    return EXIT_CODE_OK;
+}
+
 static int run(void *place)
 {
     compare_line *line = place;
@@ -129,6 +143,8 @@ static int run(void *place)
     r->progress = progress_mode_heard(r->progress, r->out.quiet);
     r->out.json_notes = r->progress == PROGRESS_JSON;
     int code = context_options_check(&r->context);
+    if (code == EXIT_CODE_OK)
+        code = check_flicker(line);
     if (code == EXIT_CODE_OK)
         code = add_methods(r, line);
     for (size_t i = 0; i < line->external_count && code == EXIT_CODE_OK; i++)
@@ -181,6 +197,8 @@ static const option compare_options[] = {
      "megabytes of pictures in the page (default 14); where all\n"
      "frames need more, it shows the first ones",
      .set = option_number, .offset = offsetof(compare_line, megabytes), .least = 1, .most = 1024},
+    {"overwrite", 0, NULL, "replace files of the report's names that this command did not write", .set = option_given,
+     .offset = offsetof(compare_request, overwrite)},
     {"backend", 0, "NAME", "cpu (default), gl or auto; null renders nothing: for tests", .set = option_context, .offset = offsetof(compare_request, context)},
     CONTEXT_OPTION_GL_DEVICE(compare_request),
     CONTEXT_OPTION_THREADS(compare_request),

@@ -26,7 +26,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
     const compare_request *r = job->request;
     const mgt_quality *q = compare_picture_quality(scene, picture);
     const bool reference = picture == COMPARE_REFERENCE || picture >= COMPARE_HALF;
-    char *text = NULL, frames[240];
+    char *text = NULL, frames[FRAME_LIST_TEXT];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     if (!stream)
@@ -44,7 +44,7 @@ char *compare_picture_command(const compare_job *job, const compare_scene *scene
         fprintf(stream, " --refraction truth --refraction-samples %u", q->refraction_samples);
     if (!reference)
         fprintf(stream, " %s", r->methods[picture - 1].options);
-    if (q->seed)
+    if (q->seed || scene_file_quality(scene->file).seed) /* the scene's would be taken without it */
         fprintf(stream, " --seed %llu", (unsigned long long)q->seed);
     for (size_t i = 0; i < r->changes.count; i++) {
         fputs(" --set", stream);

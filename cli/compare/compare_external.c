@@ -123,6 +123,19 @@ static int check_frame(compare_job *job, compare_scene *scene, size_t method, si
     return EXIT_CODE_OK;
 }
 
+/* A limit of a method without coverage could never be kept. */
+static int check_gates(const compare_job *job)
+{
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        for (size_t i = 0; i < job->request->gate_count; i++) {
+            const compare_gate *gate = &job->request->gates[i];
+            if (job->scenes[s].results[gate->method].lacks_coverage)
+                return console_error(EXIT_CODE_USAGE, "--%s %s: its pictures of %s hold no coverage, whose error is limited",
+                                     gate->flicker ? "max-flicker" : "max-rmse", job->request->methods[gate->method].name, job->scenes[s].name);
+        }
+    return EXIT_CODE_OK;
+}
+
 int compare_external_check(compare_job *job)
 {
     const compare_request *r = job->request;
@@ -133,5 +146,5 @@ int compare_external_check(compare_job *job)
                 if (code != EXIT_CODE_OK)
                     return code;
             }
-    return EXIT_CODE_OK;
+    return check_gates(job);
 }

@@ -288,25 +288,59 @@ static int check_scene(compare_job *job, const compare_scene *scene)
     return EXIT_CODE_OK;
 }
 
-/* Makes the folder, and checks that the file `page` can be written there. */
-static int make_report_folder(compare_job *job, const char *page)
+/* Whether a file that exists is another's: its beginning lacks the mark of what would be written there. */
+static bool is_foreign(const char *path, const char *mark)
+{
+    char start[2048];
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return false;
+    const size_t length = fread(start, 1, sizeof start, file), marked = strlen(mark);
+    bool found = false;
+    for (size_t i = 0; i + marked <= length && !found; i++)
+        found = memcmp(start + i, mark, marked) == 0;
+    fclose(file);
+    return length > 0 && !found;
+}
+
+/* Checks that a file of the report can be written, and would replace nobody's own file. */
+static int check_output(compare_job *job, const compare_output *output)
+{
+    char path[COMPARE_PATH];
+    file_error error;
+    if (!compare_file_path(job, output->name, path))
+        return EXIT_CODE_USAGE;
+    if (output_file_check(path, &job->output, &error) != FILE_OK)
+        return compare_file_failure(job, &error);
+    if (job->request->overwrite || !is_foreign(path, output->mark))
+        return EXIT_CODE_OK;
+    return console_error(EXIT_CODE_CANNOT_WRITE, "%s: exists already, and this command did not write it; --overwrite replaces it", path);
+}
+
+/* Makes the folder, and checks the files that will be written there. */
+static int make_report_folder(compare_job *job, const compare_output *outputs)
 {
     const char *folder = job->request->folder;
     struct stat state;
-    char path[COMPARE_PATH];
-    file_error error;
+    int code = EXIT_CODE_OK;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: cannot make this folder: %s", folder, strerror(errno));
     if (stat(folder, &state) != 0)
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: %s", folder, strerror(errno));
     if (!S_ISDIR(state.st_mode))
         return console_error(EXIT_CODE_CANNOT_WRITE, "%s: it is not a folder", folder);
-    if (!compare_file_path(job, page, path))
-        return EXIT_CODE_USAGE;
-    return output_file_check(path, &job->output, &error) == FILE_OK ? EXIT_CODE_OK : compare_file_failure(job, &error);
+    for (size_t i = 0; outputs[i].name && code == EXIT_CODE_OK; i++)
+        code = check_output(job, &outputs[i]);
+    return code;
 }
 
 /* ---- the end -------------------------------------------------------------------------------------------- */
+
+static const compare_output report_outputs[] = {{"report.html", "<title>Mangata comparison</title>"},
+                                                {"report.json", "\"mangata_comparison\": 1"},
+                                                {"report.csv", "scene,method,samples,median_ms"},
+                                                {"report.tex", "% mangata compare"},
+                                                {NULL, NULL}};
 
 typedef struct report_text {
     const char *name;
@@ -403,6 +437,10 @@ static int print_end(const compare_job *job)
     console_note(&r->out, "%s/report.html: %zu scene%s, %zu methods, %zu frames; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
                  r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
     warn_of_missing(job);
+    char *black = score_black_text(job);
+    if (black && black[0])
+        console_note(&r->out, "mangata: warning: %s", black);
+    free(black);
     for (size_t m = 0; m < r->method_count; m++) {
         char *mismatches = score_mismatches_text(job, m);
         if (mismatches && mismatches[0])
@@ -419,11 +457,13 @@ static int print_end(const compare_job *job)
     return console_print_json(report);
 }
 
-int compare_open(compare_job *job, const compare_request *request, const char *page)
+int compare_open(compare_job *job, const compare_request *request, const compare_output *outputs)
 {
     int code = EXIT_CODE_OK;
     job->request = request;
     job->frame_count = (size_t)frame_list_length(&request->frames);
+    if (job->frame_count > COMPARE_FRAMES)
+        return console_error(EXIT_CODE_USAGE, "--frames: %zu frames; allowed are %d", job->frame_count, (int)COMPARE_FRAMES);
     job->part_share = 1;
     job->output = (output_options){.overwrite = true, .cancel = interrupt_flag()};
     for (size_t s = 0; s < request->scene_count && code == EXIT_CODE_OK; s++)
@@ -435,7 +475,7 @@ int compare_open(compare_job *job, const compare_request *request, const char *p
         code = check_scene(job, &job->scenes[s]);
     if (code == EXIT_CODE_OK)
         code = compare_external_check(job);
-    return code == EXIT_CODE_OK ? make_report_folder(job, page) : code;
+    return code == EXIT_CODE_OK ? make_report_folder(job, outputs) : code;
 }
 
 static void free_scene(compare_scene *scene, size_t methods)
@@ -489,7 +529,7 @@ int compare_run(const compare_request *request)
     compare_job *job = calloc(1, sizeof *job);
     if (!job)
         return console_error(EXIT_CODE_FAILED, "out of memory");
-    int code = compare_open(job, request, "report.html");
+    int code = compare_open(job, request, report_outputs);
     if (code == EXIT_CODE_OK)
         code = compare_render(job);
     if (code == EXIT_CODE_OK)

@@ -62,6 +62,7 @@ typedef struct compare_scene {
     double reference_seconds;         /* mean rendering time of a frame; NaN: not known */
     compare_result *results;          /* for each method; owned */
     clip_scores noise[COMPARE_KINDS]; /* noise floors of the reference; NaN: it has no halves */
+    bool black[COMPARE_KINDS];        /* the reference has nothing but 0 there in all frames, so that no method can be told to be the best */
 } compare_scene;
 
 typedef struct compare_job {
@@ -111,9 +112,14 @@ int compare_shard_done(const compare_job *job);
 /* Writes a file. An existing file is replaced only by a complete one. */
 int compare_write_text(compare_job *job, const char *path, const char *text, size_t size);
 
-/* Fills a job that is all zero: loads the scenes, opens the context, checks every frame of every method, and makes the folder, in which the file `page` must be
- * writable. compare_close() must be called in every case. */
-int compare_open(compare_job *job, const compare_request *request, const char *page);
+/* A file of the report, and a text within its first 2048 bytes that only the command that makes the report writes. */
+typedef struct compare_output {
+    const char *name, *mark;
+} compare_output;
+
+/* Fills a job that is all zero: loads the scenes, opens the context, checks every frame of every method, and makes the folder, in which the files of `outputs`,
+ * of which the last has no name, must be writable and nobody's own. compare_close() must be called in every case. */
+int compare_open(compare_job *job, const compare_request *request, const compare_output *outputs);
 void compare_close(compare_job *job);
 
 /* The steps of a comparison after that, in order. */

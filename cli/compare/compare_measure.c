@@ -163,9 +163,20 @@ static int add_method_frame(compare_job *job, compare_scene *scene, measuring *s
     return code;
 }
 
-static int read_truth(compare_job *job, const compare_scene *scene, size_t frame, measuring *state, truth_pictures *truth)
+static bool is_black(const float_image *image)
+{
+    const size_t values = image->pixels ? (size_t)image->width * image->height * image->channels : 0;
+    size_t i = 0;
+    while (i < values && image->pixels[i] == 0)
+        i++;
+    return i == values;
+}
+
+static int read_truth(compare_job *job, compare_scene *scene, size_t frame, measuring *state, truth_pictures *truth)
 {
     int code = read_frame(job, scene, COMPARE_REFERENCE, frame, truth->reference);
+    for (int k = 0; k < COMPARE_KINDS && code == EXIT_CODE_OK; k++)
+        scene->black[k] = (frame == 0 || scene->black[k]) && is_black(&truth->reference[k]);
     for (size_t half = 0; half < 2 && job->request->halved && code == EXIT_CODE_OK; half++)
         code = read_frame(job, scene, COMPARE_HALF + half, frame, truth->halves[half]);
     for (int k = 0; k < COMPARE_KINDS && code == EXIT_CODE_OK; k++) {

@@ -185,7 +185,7 @@ static void put_row(FILE *stream, const compare_job *job, const compare_scene *s
             scene ? scene->name : "mean");
     markup_escape(stream, spec->name);
     fputs("</th>", stream);
-    put_number(stream, compare_is_external(job->request, method) ? NAN : (double)compare_samples(&spec->quality), "samples", 0);
+    put_number(stream, compare_method_samples(job, scene ? scene : &job->scenes[0], method), "samples", 0);
     put_number(stream, 1e3 * time.median, "time", 1);
     if (isfinite(time.least))
         fprintf(stream, "<td class=\"spread\" data-value=\"%.9g\">%.1f–%.1f</td>", 1e3 * (time.most - time.least), 1e3 * time.least, 1e3 * time.most);
@@ -270,16 +270,16 @@ static int put_mismatches(FILE *stream, const compare_job *job)
 
 static int put_ties(FILE *stream, const compare_job *job)
 {
-    char *ties = score_ties_text(job, false);
-    if (!ties)
-        return console_error(EXIT_CODE_FAILED, "out of memory");
-    if (ties[0]) {
-        fputs("<p class=\"caption\" id=\"ties\">", stream);
-        markup_escape(stream, ties);
-        fputs("</p>", stream);
+    char *const texts[] = {score_ties_text(job, false), score_black_text(job)};
+    for (int i = 0; i < 2; i++) {
+        if (texts[i] && texts[i][0]) {
+            fprintf(stream, "<p class=\"caption\" id=\"%s\">", i ? "black" : "ties");
+            markup_escape(stream, texts[i]);
+            fputs("</p>", stream);
+        }
+        free(texts[i]);
     }
-    free(ties);
-    return EXIT_CODE_OK;
+    return texts[0] && texts[1] ? EXIT_CODE_OK : console_error(EXIT_CODE_FAILED, "out of memory");
 }
 
 /* ---- everything ------------------------------------------------------------------------------------------ */
@@ -332,9 +332,9 @@ static void put_summary(FILE *stream, const compare_job *job)
     const compare_request *r = job->request;
     char frames[240];
     frame_list_print(&r->frames, frames, sizeof frames);
-    fprintf(stream, "%zu scene%s, %zu method%s, frame%s %s. Every figure compares whole frames with a reference of %llu jittered samples a pixel.",
+    fprintf(stream, "%zu scene%s, %zu method%s, frame%s %s. Every figure compares whole frames with a reference of %s jittered samples a pixel.",
             r->scene_count, r->scene_count == 1 ? "" : "s", r->method_count, r->method_count == 1 ? "" : "s", job->frame_count == 1 ? "" : "s", frames,
-            (unsigned long long)compare_samples(&r->reference));
+            compare_reference_samples(job).text);
     if (r->time_runs)
         fprintf(stream, " Times are medians of %llu runs on %s.", (unsigned long long)r->time_runs, job->info.backend == MGT_BACKEND_GL ? "OpenGL" : "the CPU");
 }

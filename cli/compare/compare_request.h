@@ -10,7 +10,7 @@
 #include "cli/common/progress.h"
 #include "image/metrics_truth.h"
 
-enum { COMPARE_METHODS = 32, COMPARE_SCENES = 64, COMPARE_GATES = 64 };
+enum { COMPARE_METHODS = 32, COMPARE_SCENES = 64, COMPARE_GATES = 64, COMPARE_FRAMES = 100000 };
 
 /* A limit of --max-rmse or --max-flicker for a method's error of coverage over all scenes, taken as one clip. */
 typedef struct compare_gate {
@@ -32,6 +32,7 @@ typedef struct compare_view {
 typedef struct compare_request {
     console out;
     const char *folder; /* of the report */
+    bool overwrite;     /* files of the report are written even where they are another's */
     const char *scene_paths[COMPARE_SCENES];
     compare_view views[COMPARE_SCENES];
     size_t scene_count;

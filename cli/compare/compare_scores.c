@@ -140,11 +140,20 @@ static bool leads(const compare_job *job, const compare_scene *scene, const scor
     return lead > (isfinite(noise) ? noise : 0);
 }
 
+/* Whether the reference of the scene, or of some scene, shows nothing in the column's kind of picture. */
+static bool is_black(const compare_job *job, const compare_scene *scene, const score_column *column)
+{
+    bool black = scene && scene->black[column->kind];
+    for (size_t s = 0; !scene && s < job->request->scene_count; s++)
+        black |= job->scenes[s].black[column->kind];
+    return black;
+}
+
 int score_winner(const compare_job *job, const compare_scene *scene, const score_column *column)
 {
     const leaders found = leaders_of(job, scene, column);
-    if (found.second < 0)
-        return job->request->method_count > 1 ? found.first : -1;
+    if (found.second < 0 || is_black(job, scene, column))
+        return -1;
     return leads(job, scene, column, found.lead) ? found.first : -1;
 }
 
@@ -152,7 +161,7 @@ int score_winner(const compare_job *job, const compare_scene *scene, const score
 static bool score_tied(const compare_job *job, const compare_scene *scene, const score_column *column)
 {
     const leaders found = leaders_of(job, scene, column);
-    return found.second >= 0 && !leads(job, scene, column, found.lead);
+    return found.second >= 0 && !is_black(job, scene, column) && !leads(job, scene, column, found.lead);
 }
 
 /* Writes the columns with ties as "simple (RMSE, FLIP)". Returns their number. */
@@ -171,6 +180,39 @@ static size_t put_ties(FILE *stream, const compare_job *job, const compare_scene
     if (count)
         putc(')', stream);
     return count;
+}
+
+/* Writes the scenes whose reference is black in some kind of picture that is scored, as "simple (coverage)". Returns their number. */
+static size_t put_black(FILE *stream, const compare_job *job)
+{
+    static const char *const names[COMPARE_KINDS] = {[KIND_COVERAGE] = "coverage", [KIND_DISPLAYED] = "displayed colour", [KIND_LIGHT] = "light"};
+    size_t count = 0;
+    for (size_t s = 0; s < job->request->scene_count; s++)
+        for (int kind = 0; kind < COMPARE_KINDS; kind++) {
+            bool scored = false;
+            for (size_t c = 0; c < score_column_count; c++)
+                scored |= (int)score_columns[c].kind == kind && score_wanted(job->request, &score_columns[c]);
+            if (scored && job->scenes[s].black[kind])
+                fprintf(stream, "%s%s (%s)", count++ ? ", " : "", job->scenes[s].name, names[kind]);
+        }
+    return count;
+}
+
+char *score_black_text(const compare_job *job)
+{
+    char *text = NULL, *places = NULL;
+    size_t size = 0, count = 0;
+    FILE *stream = open_memstream(&places, &size);
+    if (!stream)
+        return NULL;
+    count = put_black(stream, job);
+    if (memory_text_finish(stream, &places) && (stream = open_memstream(&text, &size))) {
+        if (count)
+            fprintf(stream, "The reference shows no light, so no best is marked: %s.", places);
+        text = memory_text_finish(stream, &text);
+    }
+    free(places);
+    return text;
 }
 
 char *score_ties_text(const compare_job *job, bool main_alone)

@@ -30,12 +30,15 @@ double score_noise(const compare_job *job, const compare_scene *scene, const sco
 number_text score_noise_text(double noise);
 
 /* The method whose score is nearest to the best value. It must be nearer than all others by more than the noise floor; -1: none is. `scene` NULL: by the means
- * over scenes. */
+ * over scenes. One method alone with a score does not win, nor does any where the reference shows nothing. */
 int score_winner(const compare_job *job, const compare_scene *scene, const score_column *column);
 
 /* A line that names the scenes and columns in which methods are tied. `main_alone`: only main columns. The caller frees it. "": there is no tie. NULL: out of
  * memory. */
 char *score_ties_text(const compare_job *job, bool main_alone);
+
+/* A sentence that names the scenes, and kinds of pictures, whose reference is black. The caller frees it. "": there are none. NULL: out of memory. */
+char *score_black_text(const compare_job *job);
 
 /* The pictures of a method that hold values which are infinite or not a number in one picture only, and how many: "NAME: such values in FILE (NUMBER), …".
  * The caller frees it. "": there are none. NULL: out of memory. */

@@ -7,10 +7,31 @@
 #include <string.h>
 
 #include "cli/compare/compare_command.h"
+#include "cli/compare/compare_external.h"
 #include "cli/compare/compare_scores.h"
 #include "cli/common/memory_text.h"
+#include "params/methods.h"
 
 uint64_t compare_samples(const mgt_quality *quality) { return (uint64_t)quality->spatial_samples * quality->spatial_samples * quality->time_samples; }
+
+double compare_method_samples(const compare_job *job, const compare_scene *scene, size_t method)
+{
+    const uint64_t samples = compare_is_external(job->request, method) ? 0 : quality_pixel_samples(&scene->methods[method]);
+    return samples ? (double)samples : NAN;
+}
+
+number_text compare_reference_samples(const compare_job *job)
+{
+    uint64_t least = UINT64_MAX, most = 0;
+    number_text text;
+    for (size_t s = 0; s < job->request->scene_count; s++) {
+        const uint64_t own = compare_samples(&job->scenes[s].reference);
+        least = own < least ? own : least;
+        most = own > most ? own : most;
+    }
+    snprintf(text.text, sizeof text.text, least == most ? "%llu" : "%llu to %llu", (unsigned long long)least, (unsigned long long)most);
+    return text;
+}
 
 double compare_gate_value(const compare_job *job, const compare_gate *gate)
 {
@@ -83,10 +104,10 @@ static json_t *method_json(const compare_job *job, const compare_scene *scene, s
         json_object_set_new(frames, column->key, list);
     }
     const char *external = job->request->external[method];
-    json_t *object =
-        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "method", spec->name, "samples",
-                  external ? json_null() : json_integer((json_int_t)compare_samples(&spec->quality)), "time_ms", time_json(&result->time), "scores", scores,
-                  "frames", frames, "command", external ? json_null() : owned_text(compare_picture_command(job, scene, method + 1)));
+    const double samples = compare_method_samples(job, scene, method);
+    json_t *object = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "method", spec->name, "samples",
+                               isfinite(samples) ? json_integer((json_int_t)samples) : json_null(), "time_ms", time_json(&result->time), "scores", scores,
+                               "frames", frames, "command", external ? json_null() : owned_text(compare_picture_command(job, scene, method + 1)));
     if (external)
         json_object_set_new(object, "external", console_json_text(external));
     json_t *mismatches = mismatches_json(job, scene, method);
@@ -181,6 +202,14 @@ static json_t *gates_json(const compare_job *job)
     return list;
 }
 
+/* A seed. Above 2⁶³ − 1, the largest integer here, it is text. */
+static json_t *seed_json(uint64_t seed)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)seed);
+    return seed <= INT64_MAX ? json_integer((json_int_t)seed) : json_string(text);
+}
+
 json_t *compare_result_json(const compare_job *job)
 {
     const compare_request *r = job->request;
@@ -189,8 +218,8 @@ json_t *compare_result_json(const compare_job *job)
         json_array_append_new(frames, json_integer(compare_frame_number(job, f)));
     for (size_t s = 0; s < r->scene_count; s++)
         json_array_append_new(scenes, scene_json(job, &job->scenes[s]));
-    json_t *reference = json_pack("{s:i, s:i, s:I, s:I}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
-                                  "samples", (json_int_t)compare_samples(&r->reference), "seed", (json_int_t)r->reference.seed);
+    json_t *reference = json_pack("{s:i, s:i, s:I, s:o}", "spatial", (int)r->reference.spatial_samples, "time_samples", (int)r->reference.time_samples,
+                                  "samples", (json_int_t)compare_samples(&r->reference), "seed", seed_json(r->reference.seed));
     return json_pack("{s:i, s:s, s:o, s:s, s:s, s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "mangata_comparison", 1, "version", mgt_version(),
                      "command", owned_text(compare_command(job)), "backend", mgt_backend_name(job->info.backend), "renderer", job->info.renderer, "isa",
                      mgt_isa_name(job->info.isa), "threads", (int)job->info.threads, "time_runs", (json_int_t)r->time_runs, "frames", frames, "reference",
@@ -236,8 +265,9 @@ char *compare_csv_text(const compare_job *job, size_t *size)
         for (size_t m = 0; m < r->method_count; m++) {
             const compare_result *result = &job->scenes[s].results[m];
             fprintf(stream, "%s,%s,", job->scenes[s].name, r->methods[m].name);
-            if (!r->external[m])
-                fprintf(stream, "%llu", (unsigned long long)compare_samples(&r->methods[m].quality));
+            const double samples = compare_method_samples(job, &job->scenes[s], m);
+            if (isfinite(samples))
+                fprintf(stream, "%.0f", samples);
             csv_number(stream, 1e3 * result->time.median);
             csv_number(stream, 1e3 * result->time.least);
             csv_number(stream, 1e3 * result->time.most);
@@ -259,6 +289,18 @@ static void tex_name(FILE *stream, const char *name)
 {
     for (; *name; name++)
         fprintf(stream, *name == '_' ? "\\_" : "%c", *name);
+}
+
+/* Writes text into a comment of LaTeX, each of its lines behind a percent sign. */
+static void tex_comment(FILE *stream, const char *text)
+{
+    fputs("% ", stream);
+    for (; *text; text++) {
+        putc(*text == '\r' ? '\n' : *text, stream);
+        if (*text == '\n' || *text == '\r')
+            fputs("% ", stream);
+    }
+    putc('\n', stream);
 }
 
 static bool tex_column(const compare_job *job, const score_column *column)
@@ -298,17 +340,19 @@ static void tex_noise_row(FILE *stream, const compare_job *job, const compare_sc
     fputs(" \\\\\n", stream);
 }
 
-/* Writes the line about ties under the table. False: out of memory. */
+/* Writes the lines about ties, and about references without light, under the table. False: out of memory. */
 static bool tex_ties(FILE *stream, const compare_job *job)
 {
-    char *ties = score_ties_text(job, true);
-    if (ties && ties[0]) {
-        fputs("\\par\\noindent{\\footnotesize ", stream);
-        tex_name(stream, ties);
-        fputs("}\n", stream);
+    char *const texts[] = {score_ties_text(job, true), score_black_text(job)};
+    for (int i = 0; i < 2; i++) {
+        if (texts[i] && texts[i][0]) {
+            fputs("\\par\\noindent{\\footnotesize ", stream);
+            tex_name(stream, texts[i]);
+            fputs("}\n", stream);
+        }
+        free(texts[i]);
     }
-    free(ties);
-    return ties != NULL;
+    return texts[0] && texts[1];
 }
 
 char *compare_tex_text(const compare_job *job, size_t *size)
@@ -326,11 +370,12 @@ char *compare_tex_text(const compare_job *job, size_t *size)
     }
     for (size_t c = 0; c < score_column_count; c++)
         columns += tex_column(job, &score_columns[c]);
+    tex_comment(stream, command);
     fprintf(
         stream,
-        "%% %s\n%% Needs \\usepackage{booktabs}. Against a reference of %llu samples a pixel, %zu frames; the best of each scene is bold where it leads by more than the\n"
+        "%% Needs \\usepackage{booktabs}. Against a reference of %s samples a pixel, %zu frames; the best of each scene is bold where it leads by more than the\n"
         "%% reference's noise floor, which also sets how many digits are printed.\n",
-        command, (unsigned long long)compare_samples(&r->reference), job->frame_count);
+        compare_reference_samples(job).text, job->frame_count);
     fputs("\\begin{tabular}{lr", stream);
     for (size_t c = 0; c < columns; c++)
         putc('r', stream);

@@ -83,6 +83,8 @@ static const option figures_options[] = {
     {"time-runs", 0, "N", "timed renders of each method on each scene (default 5; 0: none)", .set = option_number,
      .offset = offsetof(figures_request, time_runs), .most = 1000},
     {"check", 0, NULL, "exit with 2 when a claim of the page does not hold", .set = option_given, .offset = offsetof(figures_request, check)},
+    {"overwrite", 0, NULL, "replace files of the plates' and tables' names that this command did not write", .set = option_given,
+     .offset = offsetof(figures_request, overwrite)},
     {"backend", 0, "NAME", "cpu (default), gl or auto; null renders nothing: for tests", .set = option_context, .offset = offsetof(figures_request, context)},
     CONTEXT_OPTION_GL_DEVICE(figures_request),
     CONTEXT_OPTION_THREADS(figures_request),

@@ -93,6 +93,7 @@ static int choose_pictures(figures_job *f)
     compare_request *c = &f->renders;
     *c = (compare_request){.out = r->out,
                            .folder = r->folder,
+                           .overwrite = r->overwrite,
                            .changes = r->changes,
                            .reference = r->reference,
                            .frames = r->frames,
@@ -281,13 +282,20 @@ static int print_end(figures_job *f)
     return code;
 }
 
+const compare_output figures_outputs[] = {{"index.html", "<title>The papers' figures again</title>"},
+                                          {"figures.json", "{\n \"version\": \""},
+                                          {"table1.md", "\n\n| method |"},
+                                          {"table1.csv", "scene,method,published_rmse,"},
+                                          {"refraction.md", "| refraction |"},
+                                          {NULL, NULL}};
+
 static int run(figures_job *f)
 {
     const figures_request *r = f->request;
     int code = choose_pictures(f);
     if (code != EXIT_CODE_OK)
         return code;
-    code = compare_open(f->compare, &f->renders, "index.html");
+    code = compare_open(f->compare, &f->renders, figures_outputs);
     /* The scenes of both parts are checked before the first picture, so that an error does not appear after hours of rendering. */
     if (code == EXIT_CODE_OK && liu_wanted(f))
         code = figures_refraction_open(f, f->folder);

@@ -69,6 +69,9 @@ typedef struct figures_job {
 /* Whether there has been no error. */
 static inline bool figures_good(const figures_job *f) { return f->code == EXIT_CODE_OK; }
 
+/* The texts that are written, and how they begin; see compare_open(). */
+extern const compare_output figures_outputs[];
+
 /* Whether the request wants a figure. */
 bool figure_wanted(const figures_job *f, figure_id id);
 

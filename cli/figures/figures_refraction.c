@@ -133,6 +133,7 @@ static int choose(refraction_figures *r, const char *folder)
     compare_request *c = &r->renders;
     *c = (compare_request){.out = request->out,
                            .folder = request->folder,
+                           .overwrite = request->overwrite,
                            .changes = request->changes,
                            .layers = {MGT_LAYER_REFRACTION, MGT_LAYER_MASK},
                            .layer_count = 2,
@@ -210,7 +211,7 @@ int figures_refraction_open(figures_job *f, const char *folder)
     r->compare->request = &r->renders; /* compare_close() reads it if choose() fails */
     f->refraction = r;
     const int code = choose(r, folder);
-    return code == EXIT_CODE_OK ? compare_open(r->compare, &r->renders, "index.html") : code;
+    return code == EXIT_CODE_OK ? compare_open(r->compare, &r->renders, figures_outputs) : code;
 }
 
 void figures_refraction(figures_job *f)

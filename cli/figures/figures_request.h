@@ -38,6 +38,7 @@ typedef enum figure_id {
 typedef struct figures_request {
     console out;
     const char *folder; /* of the page */
+    bool overwrite;     /* files are written even where they are another's */
     const char *scenes; /* folder of the standard scenes; NULL: it is searched for */
     uint32_t wanted;    /* bits 1u << figure_id */
     scene_changes changes;

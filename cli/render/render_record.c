@@ -162,7 +162,9 @@ void render_record_fill(render_record *record, const render_request *request, co
         add(record, "refraction", "%s", field_print(field_find(quality_fields, "refraction", 10), &q->refraction).text);
     add(record, render_is_film(request) ? "frames" : "frame", "%s", frames);
     add(record, "time", "%s", number_print(time).text);
-    add(record, "samples", "%" PRIu64, quality_range(q) ? quality_range(q) : quality_samples(q));
+    const uint64_t samples = quality_range(q) ? quality_range(q) : quality_pixel_samples(q);
+    if (samples) /* else the pixels differ */
+        add(record, "samples", "%" PRIu64, samples);
     if (q->sample_count)
         add(record, "samples_range", "%" PRIu64 ",%" PRIu64, q->sample_first, q->sample_count);
     add(record, "seed", "%" PRIu64, q->seed);

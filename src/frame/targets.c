@@ -17,10 +17,8 @@ region image_region(const mgt_image *image)
 float samples_per_pixel(const mgt_quality *quality)
 {
     const mgt_quality *q = quality;
-    if (!method_is_sampled(q->method)) {
-        const uint32_t samples = method_of(q->method)->samples;
-        return samples ? (float)samples : 1;
-    }
+    if (!method_is_sampled(q->method))
+        return (float)quality_pixel_samples(q);
     const uint64_t all = quality_samples(q) - q->sample_first;
     return (float)(q->sample_count ? q->sample_count : all);
 }

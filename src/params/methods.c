@@ -147,6 +147,14 @@ bool method_is_sampled(mgt_method method) { return method_rows[method].way == ME
 
 uint64_t quality_samples(const mgt_quality *q) { return (uint64_t)q->spatial_samples * q->spatial_samples * q->time_samples; }
 
+uint64_t quality_pixel_samples(const mgt_quality *q)
+{
+    const uint32_t fixed = method_rows[q->method].samples;
+    if (q->method == MGT_METHOD_ADAPTIVE)
+        return 0;
+    return method_is_sampled(q->method) ? quality_samples(q) : fixed ? fixed : 1;
+}
+
 uint64_t quality_range(const mgt_quality *q)
 {
     if (q->method == MGT_METHOD_ADAPTIVE)

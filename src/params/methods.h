@@ -53,6 +53,8 @@ const method_row *method_of(mgt_method method);
 bool method_is_sampled(mgt_method method);
 /* Number of samples of a pixel, for methods that take samples. */
 uint64_t quality_samples(const mgt_quality *quality);
+/* Number of samples of each pixel, as in layer `samples` without a range. 0: pixels differ, as those of adaptive. */
+uint64_t quality_pixel_samples(const mgt_quality *quality);
 /* Number of samples that sample_first and sample_count select from: the samples of a pixel, or for method adaptive the sample slots of the picture. 0: the
  * method has neither ranges nor sums. */
 uint64_t quality_range(const mgt_quality *quality);

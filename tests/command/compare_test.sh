@@ -160,6 +160,52 @@ expect 0 '' "$MANGATA" diff direct.exr o/frames/simple/podee-pixel-ndf-mean-drop
 [[ $(report scenes.0.methods.1.command o) == *'--method ssaa2 --time-samples 3'* && $(report scenes.0.methods.1.samples o) == 12 ]] ||
     fail "commands: $(report scenes.0.methods.1.command o)"
 
+# The commands of the report make its pictures, whatever the scene says of seeds and however long the list of frames is.
+cat >seeded.yaml <<'END'
+mangata: 1
+quality: {method: ssaa, spatial: 2, seed: 77}
+END
+expect 0 '' compare seeded.yaml -o seeded "${tiny[@]}" --frames 0 --time-runs 0 --methods ssaa2,adaptive:samples=4,taa --metrics rmse --quiet
+line=$(report scenes.0.methods.0.command seeded)
+[[ $line == *' --seed 0 '* ]] || fail "no seed: $line"
+mkdir again
+(cd again && cp ../seeded.yaml . && eval "\"$MANGATA\" ${line#mangata} --quiet") || fail "the command does not run: $line"
+expect 0 '' "$MANGATA" diff again/ssaa2_0000.exr seeded/frames/seeded/ssaa2_0000.exr --layer coverage --max-rmse 0
+# Samples are those of the layer; where pixels differ there is no number.
+[[ $(report scenes.0.methods.0.samples seeded) == 4 && $(report scenes.0.methods.1.samples seeded) == null && $(report scenes.0.methods.2.samples seeded) == 8 ]] ||
+    fail "samples: $(cat seeded/report.csv)"
+grep -q '^seeded,adaptive:samples=4,,' seeded/report.csv || fail "samples of adaptive: $(cat seeded/report.csv)"
+frames=$(seq -s, 0 7 700)
+expect 0 '' compare "$simple" -o long "${tiny[@]}" --backend null --frames "$frames" --time-runs 0 --methods none --metrics rmse --quiet
+[[ $(report scenes.0.methods.0.command long) == *" --frames $frames "* ]] || fail "a long list of frames: $(report scenes.0.methods.0.command long)"
+# A comment stays one, an unsigned seed is not negative.
+expect 0 '' compare "$simple" -o lines "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse --quiet --seed 18446744073709551613 --set $'description=a\nb'
+grep -v '^%' lines/report.tex | head -1 | grep -q '^.begin' || fail "a line end in the command: $(head -4 lines/report.tex)"
+[[ $(report reference.seed lines) == 18446744073709551614 ]] || fail "seed: $(report reference lines)"
+
+# No best where no other has a score, or where the reference is black.
+expect 0 '' compare "$simple" -o alone "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse --json
+[[ $(report scenes.0.best alone) == '{"coverage.rmse":null,"displayed.rmse":null}' ]] || fail "best of one: $(report scenes.0.best alone)"
+expect 0 'warning: The reference shows no light, so no best is marked: simple .coverage' compare "$simple" -o dark "${tiny[@]}" --frames 0 --time-runs 0 --methods none,mangata \
+    --metrics rmse --set light.azimuth_deg=180 --set light.elevation_deg=80
+[[ $(report scenes.0.best dark) == '{"coverage.rmse":null,'* ]] || fail "best in the dark: $(report scenes.0.best dark)"
+grep -q 'The reference shows no light' dark/report.tex && grep -q 'id="black"' dark/report.html || fail "the dark is not told"
+
+# Files of others are not replaced, its own are.
+for name in report.tex report.html report.csv report.json; do
+    rm -rf own && mkdir own
+    echo mine >own/$name
+    expect 73 "own/$name: exists already, and this command did not write it; --overwrite replaces it" compare "$simple" -o own "${tiny[@]}" --frames 0 --methods none
+    [[ $(ls own) == "$name" && $(cat own/$name) == mine ]] || fail "own/$name was touched"
+done
+expect 0 '' compare "$simple" -o own "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse --quiet --overwrite
+expect 0 '' compare "$simple" -o own "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse --quiet
+
+# Told before anything is drawn.
+expect 64 'metrics flicker needs at least two --frames' compare "$simple" -o x --frames 3 --metrics flicker
+expect 0 'warning: --metrics flicker needs at least two --frames' compare "$simple" -o own "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics rmse,flicker
+expect 64 'frames: 100000000 frames; allowed are 100000' timeout 10 "$MANGATA" compare "$simple" -o x --frames 0-99999999
+
 # Pictures of others, beside ours: a copy of a method scores what it scores; what a file lacks has no score.
 mkdir -p other/simple other/smooth
 cp r/frames/smooth/none_0000.exr other/smooth/0000.exr
@@ -202,6 +248,8 @@ expect 0 '' "${bad[@]}" --max-rmse none=1
 expect 2 'mine: .*other/inf_0.pfm \(1\), so' compare "$simple" -o e "${tiny[@]}" --frames 0 --time-runs 0 --methods none --metrics texture,rmse --external mine=other/inf_0.pfm \
     --max-rmse mine=1 --quiet
 
+for frame in 0 1; do render "$simple" -o other/color_$frame.pfm --method none --size 32x18 --frames $frame --quiet; done
+expect 64 'max-rmse mine: its pictures of simple hold no coverage' compare "$simple" -o x "${tiny[@]}" --frames 0-1 --methods none --external mine=other/color_%d.pfm --max-rmse mine=1
 external() { compare "$simple" -o x "${tiny[@]}" --frames 0-1 --methods none --external "$@"; }
 expect 64 'allowed is NAME=PATH' external other/%04d.exr
 expect 64 'allowed is NAME=PATH' external 'my own=other/%04d.exr'
@@ -237,6 +285,8 @@ expect 64 'no scene given' compare -o x
 expect 64 'no folder given' compare "$simple"
 expect 64 'unknown method mirror; allowed are none' compare "$simple" -o x --methods none,mirror
 expect 64 'refraction' compare "$simple" -o x --methods mangata+refraction
+expect 64 'podee-uniform:kernels=3:path-seg.*: the name with its options has [0-9]+ characters; allowed are 200' compare "$simple" -o x \
+    --methods "podee-uniform:kernels=3:path-segments=4$(printf ':elongation=3%.0s' {1..14})"
 expect 64 'none is given twice' compare "$simple" -o x --methods none,mangata,none
 expect 64 'the reference is always rendered' compare "$simple" -o x --methods reference
 expect 64 'ndf-mean: it is for method podee-pixel alone' compare "$simple" -o x --methods mangata:ndf-mean=drop
