@@ -29,7 +29,7 @@ typedef struct diff_request {
     uint64_t counted; /* number of pixels that the mask has selected so far */
     truth_metrics truth;
     diff_maps maps;
-    bool encoding_given;
+    bool encoding_given, places_warned;
     uint32_t width, height, channels; /* of the first frame; 0: none was read */
 } diff_request;
 
@@ -260,6 +260,21 @@ static int check_clip(diff_request *r, uint32_t number, const float_image *image
                          image->width, image->height, image->channels, image->channels == 1 ? "" : "s", r->width, r->height, r->channels);
 }
 
+/* Crops of an EXR lie at their places, but are compared pixel by pixel. */
+static void warn_of_places(diff_request *r, uint32_t number)
+{
+    char paths[3][DIFF_PATH];
+    int32_t place[3][2];
+    for (size_t i = 0; i < 3 && r->paths[i] && !r->places_warned; i++) {
+        if (!frame_path_print(&r->names[i], number, paths[i], DIFF_PATH) || !picture_origin(paths[i], place[i]))
+            return;
+        r->places_warned = place[i][0] != place[0][0] || place[i][1] != place[0][1];
+        if (r->places_warned)
+            console_note(&r->out, "mangata: warning: %s lies at %d,%d of its whole picture, %s at %d,%d; they are compared as if they lay at one place",
+                         paths[0], (int)place[0][0], (int)place[0][1], paths[i], (int)place[i][0], (int)place[i][1]);
+    }
+}
+
 static int read_frame(diff_request *r, uint32_t number, diff_frame *frame)
 {
     const float_image *a = &frame->images[0];
@@ -274,6 +289,7 @@ static int read_frame(diff_request *r, uint32_t number, diff_frame *frame)
             return console_error(EXIT_CODE_FAILED, "%s has %u x %u pixels of %u channel%s, %s has %u x %u of %u; they must agree", r->paths[0], a->width,
                                  a->height, a->channels, a->channels == 1 ? "" : "s", r->paths[i], b->width, b->height, b->channels);
     }
+    warn_of_places(r, number);
     return check_clip(r, number, a);
 }
 

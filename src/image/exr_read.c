@@ -6,9 +6,11 @@
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "image/exr_names.h"
+#include "image/exr_primaries.h"
 #include "image/picture_formats.h"
 
 enum { LAYER_CHANNELS_MAX = 4 };
@@ -83,14 +85,17 @@ static size_t layer_length(const char *channel)
 
 static bool in_layer(const char *channel, const char *layer, size_t length) { return layer_length(channel) == length && strncmp(channel, layer, length) == 0; }
 
-/* Components in the order people expect, R G B A, X Y Z; anything else after them in the file's order. */
+/* Components in the order people expect, R G B A, X Y Z, in whatever case; anything else after them in the file's order. */
 static int component_rank(const char *channel)
 {
-    static const char order[] = "RGBAXYZ";
+    static const char *const order[][2] = {{"R", "red"}, {"G", "green"}, {"B", "blue"}, {"A", "alpha"}, {"X", "X"}, {"Y", "Y"}, {"Z", "Z"}};
+    enum { RANKS = sizeof order / sizeof order[0] };
     size_t length = layer_length(channel);
     const char *component = channel + length + (length > 0 || channel[0] == '.' ? 1 : 0);
-    const char *place = component[0] && !component[1] ? strchr(order, component[0]) : NULL;
-    return place ? (int)(place - order) : (int)sizeof order;
+    int rank = 0;
+    while (rank < RANKS && strcasecmp(component, order[rank][0]) != 0 && strcasecmp(component, order[rank][1]) != 0)
+        rank++;
+    return rank;
 }
 
 /* Takes the channels of a layer (length 0: the nameless one), at most four; colour goes without alpha. */
@@ -118,7 +123,13 @@ static exr_selection select_color(const exr_attr_chlist_t *list)
                 selection.channels[selection.count++] = i;
     if (selection.count == 3)
         return selection;
-    selection.count = 0;
+    selection = select_layer(list, "", 0);
+    bool named = selection.count >= 3;
+    for (int c = 0; c < 3; c++)
+        named = named && component_rank(list->entries[selection.channels[c]].name.str) == c;
+    selection.count = named ? 3 : 0;
+    if (named)
+        return selection;
     for (int i = 0; i < list->num_channels; i++)
         if (strcmp(list->entries[i].name.str, "Y") == 0)
             selection = (exr_selection){1, {i}};
@@ -271,6 +282,31 @@ static file_status check_kind(exr_context_t context, int part, const input_file 
     return code ? bad_exr(input, code, error) : FILE_OK;
 }
 
+/* Colours become those of the primaries of sRGB, where the file says that they are others. */
+static void convert_color(exr_context_t context, const exr_found *found, float_image *image)
+{
+    const exr_attribute_t *attribute = NULL;
+    bool color = found->selection.count == 3;
+    for (int c = 0; c < 3 && color; c++)
+        color = component_rank(found->list->entries[found->selection.channels[c]].name.str) == c;
+    if (color && exr_get_attribute_by_name(context, found->part, "chromaticities", &attribute) == EXR_ERR_SUCCESS && attribute->type == EXR_ATTR_CHROMATICITIES)
+        exr_primaries_to_srgb(image->pixels, (size_t)image->width * image->height, attribute->chromaticities);
+}
+
+bool exr_origin_read(const input_file *input, int32_t origin[2])
+{
+    exr_context_t context = NULL;
+    exr_attr_box2i_t window;
+    const bool good = start_read(&context, input) == EXR_ERR_SUCCESS && exr_get_data_window(context, 0, &window) == EXR_ERR_SUCCESS;
+    if (good) {
+        origin[0] = window.min.x;
+        origin[1] = window.min.y;
+    }
+    if (context)
+        exr_finish(&context);
+    return good;
+}
+
 file_status exr_read(float_image *image, const input_file *input, const char *layer, file_error *error)
 {
     exr_context_t context = NULL;
@@ -313,6 +349,8 @@ file_status exr_read(float_image *image, const input_file *input, const char *la
     code = read_pixels(context, image, &found, window.min.y);
     if (code)
         status = bad_exr(input, code, error);
+    else
+        convert_color(context, &found, image);
 
 fail:
     if (context)

@@ -109,7 +109,7 @@ file_status pfm_read(float_image *image, const input_file *input, file_error *er
     FILE *stream = input->stream;
     if (!read_word(stream, kind, sizeof kind) || (strcmp(kind, "PF") != 0 && strcmp(kind, "Pf") != 0) || !read_side(stream, &image->width) ||
         !read_side(stream, &image->height) || !read_scale(stream, &little_endian))
-        return file_error_set(error, FILE_BAD, "%s: is not a sound PFM: its header must be PF or Pf, width, height, scale", input->path);
+        return file_error_set(error, FILE_BAD, "%s: is not a sound PFM: its header must be PF or Pf, width, height, scale, without comments", input->path);
     image->channels = kind[1] == 'F' ? 3 : 1;
 
     /* Before anything is allocated: the file must really hold what its header says. */
@@ -117,8 +117,10 @@ file_status pfm_read(float_image *image, const input_file *input, file_error *er
     uint64_t row_values = (uint64_t)image->width * image->channels;
     if (image->width > PICTURE_SIDE_MAX || image->height > PICTURE_SIDE_MAX || start < 0 ||
         input->size - (uint64_t)start != row_values * image->height * sizeof(float))
-        return file_error_set(error, FILE_BAD, "%s: is not a sound PFM: %ux%u pixels of %u channels do not fit its length", input->path, image->width,
-                              image->height, image->channels);
+        return file_error_set(
+            error, FILE_BAD,
+            "%s: is not a sound PFM: %ux%u pixels of %u channels do not fit its length; its header ends with one blank or line end, and the pixels follow",
+            input->path, image->width, image->height, image->channels);
     file_status status = float_image_allocate(image, input->path, error);
     if (status != FILE_OK)
         return status;

@@ -138,6 +138,17 @@ file_status picture_read(float_image *image, const char *path, const char *layer
     return status;
 }
 
+bool picture_origin(const char *path, int32_t origin[2])
+{
+    input_file input = {0};
+    bool found = input_file_open(&input, path, &(file_error){0}) == FILE_OK;
+    origin[0] = origin[1] = 0;
+    if (found && input_file_format(&input) == PICTURE_EXR)
+        found = exr_origin_read(&input, origin);
+    input_file_close(&input);
+    return found;
+}
+
 void float_image_free(float_image *image)
 {
     free(image->pixels);

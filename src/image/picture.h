@@ -84,8 +84,12 @@ typedef struct float_image {
 
 /* Reads a picture. The format follows from the content, not from the extension. PNG: 8 or 16 bits, values divided by 255 or 65535; 1 channel for grey, 3 for
  * colour, and one more for alpha unless it is opaque everywhere. EXR: scanlines of half, float or uint, without DWA. `layer`: an EXR layer of any part
- * ("depth"), a channel ("depth.Z") or a part; NULL: "color", or the only layer; PNG and PFM ignore it. On failure *image is zeroed. */
+ * ("depth"), a channel ("depth.Z") or a part; NULL: "color", or the only layer; PNG and PFM ignore it. Colour of an
+ * EXR whose chromaticities are not those of sRGB is converted to these. On failure *image is zeroed. */
 file_status picture_read(float_image *image, const char *path, const char *layer, file_error *error);
+
+/* Where the pixels of an EXR lie in its whole picture, the corner of its data window; 0, 0 for other pictures. False: it cannot be read. */
+bool picture_origin(const char *path, int32_t origin[2]);
 
 void float_image_free(float_image *image);
 

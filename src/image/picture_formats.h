@@ -41,6 +41,8 @@ const void *picture_row(const void *pixels, size_t packed_row_bytes, ptrdiff_t r
 
 file_status png_read(float_image *image, const input_file *input, file_error *error);
 file_status exr_read(float_image *image, const input_file *input, const char *layer, file_error *error);
+/* The corner of the data window of the first part. False: there is none. */
+bool exr_origin_read(const input_file *input, int32_t origin[2]);
 file_status pfm_read(float_image *image, const input_file *input, file_error *error);
 
 file_status png_metadata_read(const input_file *input, const char *key, char **value, file_error *error);

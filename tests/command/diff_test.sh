@@ -249,4 +249,10 @@ for pair in 'kind.png kind.png' 'kind.exr kind.exr'; do
     [[ ! -s stderr.txt ]] || fail "diff $pair: $(cat stderr.txt)"
 done
 expect 64 '--layer coverage: it is for .exr alone' "$MANGATA" diff kind.png kind.png --layer coverage
+
+# A header of PFM has no comments and one kind of line end.
+{ printf 'Pf\n# a comment\n2 2\n-1.0\n' && tail -c 16 a.pfm; } >comment.pfm
+expect 65 'comment.pfm: .*width, height, scale, without comments' "$MANGATA" diff comment.pfm a.pfm
+{ printf 'Pf\r\n2 2\r\n-1.0\r\n' && tail -c 16 a.pfm; } >windows.pfm
+expect 65 'windows.pfm: .*its header ends with one blank or line end, and the pixels follow' "$MANGATA" diff windows.pfm a.pfm
 finish

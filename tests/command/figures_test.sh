@@ -125,6 +125,12 @@ expect 66 '/pool.yaml: No such file' figures -o empty --scenes "$work" --only li
 # Without the bunny's file a rock stands for it.
 mkdir bare && cp -r "$SOURCE/scenes" bare/scenes
 expect 0 'a rock stands for the pool' "$MANGATA" figures --scenes bare/scenes -o rock --only liu-7 --size 16x16 --refraction-samples 1
+# Texts of others are not replaced, its own are.
+mkdir own && echo mine >own/index.html
+expect 73 'own/index.html: exists already, and this command did not write it; --overwrite replaces it' figures -o own --only 21
+[[ $(cat own/index.html) == mine ]] || fail "own/index.html was touched"
+expect 0 '' figures -o own --only 21 --overwrite
+expect 0 '' figures -o own --only 21
 echo file >taken
 expect 73 'taken: it is not a folder' figures -o taken --only 21
 expect 73 'cannot make this folder' figures -o no/such/place --only 21
