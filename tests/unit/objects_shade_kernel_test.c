@@ -221,6 +221,44 @@ static void glow_is_the_integral(void **state)
     }
 }
 
+/* A view from under water along the surface: down to the depth of what the surface mirrors, or on without end, each with the light of its own depth. */
+static void mirrored_ways_have_two_parts(void **state)
+{
+    (void)state;
+    enum { STEPS = 20000 };
+    numbers.state = 7;
+    for (int i = 0; i < 100; i++) {
+        const bool endless = i % 2;
+        const double depth = range(0.5, 5), before = depth * exp(range(0, 4)), fall = range(0.05, 0.9), after = endless ? 400 : exp(range(-1, 4)),
+                     sigma = exp(range(-3, 0)), b = sigma * range(0.1, 1), sun = range(0, 10), sky = range(0, 10), slant = range(1, 1.4);
+        shade_data = (ShadeData){.absorption_r = (float)(sigma - b),
+                                 .scattering_r = (float)b,
+                                 .sun_water_r = (float)sun,
+                                 .sky_water_r = (float)sky,
+                                 .sun_water_slant = (float)slant,
+                                 .camera_depth = (float)depth,
+                                 .glow_gain = 1};
+        double sum = 0;
+        for (int k = 0; k < 2 * STEPS; k++) {
+            const bool behind = k >= STEPS;
+            const double step = (behind ? after : before) / STEPS, x = step * (k % STEPS + 0.5), way = behind ? before + x : x;
+            const double down = behind ? fall * x : depth * (1 - x / before);
+            sum += b / (4 * pi) * step * exp(-sigma * way) * (sun * exp(-sigma * slant * down) + sky * exp(-sigma * 1.2 * down));
+        }
+        const HitRay ray = {.position = vec3(0, (float)(-fall * after), 0),
+                            .direction = vec3((float)sqrt(1 - fall * fall), (float)-fall, 0),
+                            .before = (float)before,
+                            .after = endless ? 0 : (float)after,
+                            .water = (float)(endless ? before : before + after),
+                            .gain = 1};
+        const HitTriangle triangle = {.edge_1 = vec3(1, 0, 0), .edge_2 = vec3(0, 0, 1)};
+        const HitMaterial black = {.metallic = 1, .alpha = 1, .inverse_size = 1};
+        const double found = (double)(endless ? shade_nothing(NULL, ray, vec3(0, 0, 0)) : shade_hit(NULL, black, triangle, ray)).x;
+        if (!(fabs(found - sum) <= 1e-3 * sum + 1e-5 + 0.05 * exp(-sigma * (before + after))))
+            fail_msg("%s, case %d: %g, the integral is %g", endless ? "without end" : "to an object", i, found, sum);
+    }
+}
+
 /* ---- caustics ---- */
 
 static void surface_at(double x, double z, double out[6])
@@ -327,6 +365,7 @@ int main(void)
         cmocka_unit_test(highlights_are_means_over_normals),
         cmocka_unit_test(normals_turn_as_they_do_between_points),
         cmocka_unit_test(glow_is_the_integral),
+        cmocka_unit_test(mirrored_ways_have_two_parts),
         cmocka_unit_test(caustics_are_shares_of_area),
         cmocka_unit_test(slopes_bend_the_view_to_the_light),
     };

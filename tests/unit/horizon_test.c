@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where the far water ends. Under water both sides of the horizon show the water's own light, whether the camera rests or moves, by traced rays as well.
+ * Above, what the water mirrors of a far wall has the air's light.
+ */
+#include "unit/api_sea.h"
+
+#include "scene/scene_file.h"
+
+enum { WIDTH = 16, HEIGHT = 24, MIDDLE = HEIGHT / 2, PIXELS = WIDTH * HEIGHT };
+
+/* The horizon lies between rows MIDDLE − 1 and MIDDLE. */
+static const char sea[] = "mangata: 1\n"
+                          "image: {width: 16, height: 24}\n"
+                          "camera: {position: [0, -3, 0], target: [0, -3, -10], fov_y_deg: 30}\n"
+                          "light: {elevation_deg: 55, azimuth_deg: 20}\n"
+                          "time: {start: 3, shutter: 0}\n"
+                          "water:\n"
+                          "  clarity: clear\n"
+                          "  waves:\n"
+                          "    - {amplitude: 0.2, a: 0.6, b: 0.5, c: -2.8, phase: 0.7}\n"
+                          "    - {amplitude: 0.06, a: -1.2, b: 1.9, c: -4.7, phase: 2.1}\n"
+                          "    - {amplitude: 0.03, a: 2.9, b: 3.4, c: -6.6, phase: 4}\n"
+                          "    - {amplitude: 0.01, a: -9, b: 7, c: -10.6, phase: 1}\n";
+
+typedef struct view {
+    scene_file *file;
+    mgt_scene scene;
+} view;
+
+static view view_of(const char *const *overrides, size_t count)
+{
+    view v = {0};
+    scene_error error;
+    v.file = scene_file_parse(sea, sizeof sea - 1, "sea", overrides, count, &error);
+    if (!v.file)
+        fail_msg("%s", error.text);
+    assert_true(scene_file_frame(v.file, 0, &v.scene));
+    return v;
+}
+
+static void render(mgt_context *context, const mgt_scene *scene, float color[3 * PIXELS])
+{
+    const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, color, 0);
+    sea_render(context, scene, &target, 1);
+}
+
+/* Mean green of a row. */
+static double mean_green(const float *color, int row)
+{
+    double sum = 0;
+    for (int x = 0; x < WIDTH; x++)
+        sum += (double)color[3 * (row * WIDTH + x) + 1] / WIDTH;
+    return sum;
+}
+
+/* ---- a camera at rest ---- */
+
+/* From below the surface mirrors the deep water at the horizon. Light from both sides of it has come through the same water, so that it is the same. */
+static void both_sides_are_the_same(void **state)
+{
+    (void)state;
+    static float color[3 * PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(NULL, 0);
+    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_PODEE_PIXEL};
+    static const mgt_refraction ways[] = {MGT_REFRACTION_TWO_PHASE, MGT_REFRACTION_HYBRID, MGT_REFRACTION_OFF, MGT_REFRACTION_PATH_TRACED};
+    for (int i = 0; i < 12; i++) {
+        v.scene.quality.method = methods[i % 3];
+        v.scene.quality.refraction = ways[i / 3];
+        v.scene.quality.refraction_samples = 1;
+        const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, color, 0);
+        const mgt_status status = mgt_render(context, &v.scene, &target, 1);
+        if (status == MGT_ERROR_UNAVAILABLE)
+            continue;
+        assert_int_equal(status, MGT_OK);
+        const double over = mean_green(color, MIDDLE - 1), under = mean_green(color, MIDDLE);
+        printf("under water, method %d, refraction %d: %.3f over the horizon, %.3f under it\n", methods[i % 3], ways[i / 3], over, under);
+        assert_true(fabs(over / under - 1) < 0.04);
+    }
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_sides_are_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
