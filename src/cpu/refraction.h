@@ -17,6 +17,7 @@ typedef struct tile_objects {
     float normal[3][TILE_PIXELS];     /* their unit normal towards the camera; set where `along` is finite */
     float refraction[3][TILE_PIXELS]; /* MGT_LAYER_REFRACTION */
     float error[TILE_PIXELS];         /* MGT_LAYER_REFRACTION_ERROR */
+    float deep_known[TILE_PIXELS];    /* camera under water: 1 where light.deep is known, else 0 */
     /* Scratch memory from here on. */
     tile_water water;
     tile_ends ends;
@@ -55,7 +56,7 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate
 /* Objects in the pixels of a tile when the shutter opens. */
 typedef struct tile_opened {
     tile_light light;
-    float share[TILE_PIXELS], color[3][TILE_PIXELS];
+    float share[TILE_PIXELS], color[3][TILE_PIXELS], deep_known[TILE_PIXELS];
 } tile_opened;
 
 /* The state for the camera when the shutter opens; NULL: it does not move, or the method is path-traced, which takes the camera of the closing shutter
@@ -64,8 +65,8 @@ refraction *refraction_opened(const refraction *r);
 
 /* Copies what refraction_blend() needs of the opening shutter. */
 void refraction_keep(const tile_objects *o, tile_opened *opened);
-/* Replaces `light`, `share` and `color` by means over both ends of the shutter. */
-void refraction_blend(tile_objects *o, const tile_opened *opened);
+/* Replaces `light`, `share` and `color` by means over both ends of the shutter. `under`: the camera is under water. */
+void refraction_blend(tile_objects *o, const tile_opened *opened, bool under);
 
 /* Whether objects in front of the water cover the whole tile. */
 bool refraction_covers(const tile_objects *o);

@@ -105,6 +105,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
     tile_ends *e = &o->ends;
     size_t count = 0;
     memset(o->light.deep, 0, sizeof o->light.deep);
+    memset(o->deep_known, 0, sizeof o->deep_known);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         if (o->water.share[i] >= 1 || o->share[i] >= 1)
             continue;
@@ -121,6 +122,7 @@ static void see_deep(const refraction *r, uint32_t column, uint32_t row, tile_ob
         e->triangle[count] = -1;
         e->before[count] = e->after[count] = e->water[count] = 0;
         e->gain[count] = 1;
+        o->deep_known[i] = 1;
         o->list[count++] = (uint16_t)i;
     }
     refraction_shade(r, o, count);
@@ -496,6 +498,7 @@ void refraction_keep(const tile_objects *o, tile_opened *opened)
     opened->light = o->light;
     memcpy(opened->share, o->share, sizeof o->share);
     memcpy(opened->color, o->color, sizeof o->color);
+    memcpy(opened->deep_known, o->deep_known, sizeof o->deep_known);
 }
 
 /* Blends `count` planes with others. `weight`: weight of the others in each pixel. */
@@ -506,18 +509,27 @@ static void blend_planes(float *planes, const float *others, size_t count, const
             planes[i] = light_of_ends(NULL, planes[i], others[i], weight[i]);
 }
 
-void refraction_blend(tile_objects *o, const tile_opened *opened)
+void refraction_blend(tile_objects *o, const tile_opened *opened, bool under)
 {
     _Static_assert(sizeof(tile_light) % (TILE_PIXELS * sizeof(float)) == 0, "planes of floats");
-    float weight[TILE_PIXELS];
+    enum { COLOR_PLANES = 3 };
+    float weight[TILE_PIXELS], deep[COLOR_PLANES][TILE_PIXELS];
+    memcpy(deep, o->light.deep, sizeof deep);
     for (size_t i = 0; i < TILE_PIXELS; i++) {
-        weight[i] = opened_weight(NULL, o->share[i], opened->share[i]);
+        weight[i] = opened_weight(NULL, water_is_known(NULL, o->share[i], o->light.share[i], under),
+                                  water_is_known(NULL, opened->share[i], opened->light.share[i], under));
         for (int k = 0; k < 3; k++)
             o->color[k][i] = objects_of_ends(NULL, o->color[k][i], opened->color[k][i], o->share[i], opened->share[i]);
     }
     for (size_t i = 0; i < TILE_PIXELS; i++)
         o->share[i] = share_of_ends(NULL, o->share[i], opened->share[i]);
     blend_planes(o->light.through[0], opened->light.through[0], sizeof o->light / sizeof o->light.share, weight);
+    if (under) {
+        for (size_t i = 0; i < TILE_PIXELS; i++)
+            weight[i] = opened_weight(NULL, o->deep_known[i], opened->deep_known[i]);
+        memcpy(o->light.deep, deep, sizeof deep);
+        blend_planes(o->light.deep[0], opened->light.deep[0], COLOR_PLANES, weight);
+    }
     memcpy(o->light.front, o->share, sizeof o->share);
 }
 

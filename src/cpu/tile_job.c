@@ -233,7 +233,7 @@ static void see_objects(tile_place place, tile_scratch *scratch)
     build_with(through, place, &job->waves->shutter, &scratch->close, scratch->close_estimate);
     refraction_tile(job->objects, &scratch->close, scratch->close_estimate, place.x, place.y, scratch->worker, &scratch->objects);
     if (opened)
-        refraction_blend(&scratch->objects, &scratch->opened);
+        refraction_blend(&scratch->objects, &scratch->opened, job->frame->under);
 }
 
 static void render_pixels(tile_place place, tile_scratch *scratch)

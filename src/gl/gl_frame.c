@@ -479,6 +479,7 @@ gl_band gl_band_at(const gl_run *run, uint32_t row)
                 .objects = run->objects,
                 .front_shows = !job->background,
                 .write_foam = job->wants_foam,
+                .under = job->frame->under,
             },
         .tiles = run->columns * rows,
     };

@@ -134,6 +134,45 @@ static void objects_are_those_of_the_cpu(void **state)
     free_props(&p);
 }
 
+/* ---- horizons ---- */
+
+/* Under water the far water of a camera that rests or tilts. Above, a box far away that the water mirrors through air. */
+static void horizons_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    static layers expected, got;
+    mgt_wave waves[SEA_WAVES];
+    props p = make_props();
+    mgt_context *gl = gl_context(), *cpu = sea_context(2, MGT_ISA_AUTO);
+    for (int i = 0; i < 3; i++) {
+        const bool under = i < 2;
+        mgt_scene scene = scene_of(&p, waves, under);
+        scene.camera.target[0] = 0;
+        scene.camera.target[1] = scene.camera.position[1];
+        scene.camera_open = scene.camera;
+        scene.camera_open.target[1] += 0.4;
+        scene.camera_moves = i == 1;
+        scene.object_count = under ? 0 : 1;
+        mgt_object far = p.objects[0];
+        far.transform[0][0] = 400, far.transform[0][2] = 0, far.transform[0][3] = 0;
+        far.transform[1][1] = 200;
+        far.transform[2][0] = 0, far.transform[2][3] = -3000;
+        scene.objects = &far;
+        if (!under) {
+            scene.sky.model = MGT_SKY_ATMOSPHERE;
+            scene.sky.turbidity = 6;
+            scene.aerial = true;
+            scene.camera.fov_y_deg = 12;
+        }
+        render_all(cpu, &scene, &expected);
+        render_all(gl, &scene, &got);
+        expect_same(i == 0 ? "under water, still" : i == 1 ? "under water, moving" : "mirrored through air", got.color, expected.color, PIXELS * 3, 2e-2);
+    }
+    mgt_context_destroy(gl);
+    mgt_context_destroy(cpu);
+    free_props(&p);
+}
+
 /* The same bytes again, after other frames and other objects, and within a crop. */
 static void render_again(mgt_context *gl, const props *p, mgt_refraction refraction)
 {
@@ -214,6 +253,7 @@ int main(void)
         return 77;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(objects_are_those_of_the_cpu),
+        cmocka_unit_test(horizons_are_those_of_the_cpu),
         cmocka_unit_test(the_same_bytes_again),
         cmocka_unit_test(textures_hold_objects),
     };

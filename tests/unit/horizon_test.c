@@ -82,10 +82,55 @@ static void both_sides_are_the_same(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- a moving camera ---- */
+
+static void tilt(mgt_camera *camera, double share) { camera->target[1] = -3 + share * 0.6; }
+
+/* While the shutter is open the horizon passes over rows. They have the mean light of cameras at rest. */
+static void moving_horizons_are_means(void **state)
+{
+    (void)state;
+    enum { INSTANTS = 16 };
+    static float color[3 * PIXELS], instant[3 * PIXELS], mean[3 * PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(NULL, 0);
+    v.scene.shutter = 1e-4; /* the waves stand still */
+    v.scene.camera_moves = true;
+    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_SSAA};
+    for (int i = 0; i < 6; i++) {
+        const double way = i % 2 ? 1 : -1;
+        mgt_scene moving = v.scene;
+        moving.quality.method = methods[i / 2];
+        moving.quality.spatial_samples = moving.quality.time_samples = 2;
+        moving.camera_open = moving.camera;
+        tilt(&moving.camera, way);
+        tilt(&moving.camera_open, -way);
+        render(context, &moving, color);
+        memset(mean, 0, sizeof mean);
+        for (int k = 0; k < INSTANTS; k++) {
+            mgt_scene still = v.scene;
+            still.camera_moves = false;
+            tilt(&still.camera, 2 * (k + 0.5) / INSTANTS - 1);
+            render(context, &still, instant);
+            for (int p = 0; p < 3 * PIXELS; p++)
+                mean[p] += instant[p] / INSTANTS;
+        }
+        double worst = 0;
+        for (int row = MIDDLE - 3; row < MIDDLE + 3; row++)
+            for (int p = row * WIDTH; p < (row + 1) * WIDTH; p++)
+                worst = fmax(worst, fabs((double)color[3 * p + 1] / (double)mean[3 * p + 1] - 1));
+        printf("a camera that tilts %s, method %d: off by %.3f at most between the horizons\n", way > 0 ? "up" : "down", methods[i / 2], worst);
+        assert_true(worst < 0.1);
+    }
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_sides_are_the_same),
+        cmocka_unit_test(moving_horizons_are_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

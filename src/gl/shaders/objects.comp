@@ -90,7 +90,7 @@ void main()
     imageStore(front_image, pixel.texel, vec4(0.0f));
     imageStore(surface_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, INFINITE));
     imageStore(error_image, pixel.texel, vec4(0.0f));
-    imageStore(deep_image, pixel.texel, vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    imageStore(deep_image, pixel.texel, vec4(0.0f));
     bool edge = is_edge(image, water), front = false;
     if (!edge && front_triangle_at(front_texel(image)) >= 0)
         front = is_in_front(front_triangle_at(front_texel(image)), front_depth_at(front_texel(image)), water, camera_ray(image, vec2(0.0f)));

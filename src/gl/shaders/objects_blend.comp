@@ -41,10 +41,14 @@ void main()
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(pass_data.area_width, pass_data.area_height))))
         return;
     vec4 closed = imageLoad(front_image, texel), opened = texelFetch(front_texture, texel, 0);
-    float weight = opened_weight(0, closed.a, opened.a);
+    vec4 mirrored = imageLoad(mirrored_image, texel), mirrored_opened = texelFetch(mirrored_texture, texel, 0);
+    float weight = opened_weight(0, water_is_known(0, closed.a, mirrored.a, pass_data.under), water_is_known(0, opened.a, mirrored_opened.a, pass_data.under));
     imageStore(body_image, texel, light_of_both(imageLoad(body_image, texel), texelFetch(body_texture, texel, 0), weight));
-    imageStore(mirrored_image, texel, light_of_both(imageLoad(mirrored_image, texel), texelFetch(mirrored_texture, texel, 0), weight));
+    imageStore(mirrored_image, texel, light_of_both(mirrored, mirrored_opened, weight));
     imageStore(clear_image, texel, light_of_both(imageLoad(clear_image, texel), texelFetch(clear_texture, texel, 0), weight));
-    imageStore(deep_image, texel, light_of_both(imageLoad(deep_image, texel), texelFetch(deep_texture, texel, 0), weight));
+    if (pass_data.under != 0) {
+        vec4 deep = imageLoad(deep_image, texel), deep_opened = texelFetch(deep_texture, texel, 0);
+        imageStore(deep_image, texel, light_of_both(deep, deep_opened, opened_weight(0, deep.a, deep_opened.a)));
+    }
     imageStore(front_image, texel, objects_of_both(closed, opened));
 }
