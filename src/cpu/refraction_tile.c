@@ -215,6 +215,17 @@ static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_
     }
 }
 
+/* Shows deep water where, for a camera under water, all traced rays of a pixel pass below the horizon and its edge reaches over it. */
+static void see_deep_for_truth(tile_objects *o)
+{
+    for (size_t i = 0; i < TILE_PIXELS; i++)
+        if (o->truth.water[i] == 0 && o->deep_known[i] > 0) {
+            for (int k = 0; k < 3; k++)
+                o->light.through[k][i] = o->light.mirrored[k][i] = o->light.deep[k][i];
+            o->light.share[i] = 1;
+        }
+}
+
 /* Adds o->rgb to the planes' elements of the pixels in o->list. */
 static void add_listed(const tile_objects *o, size_t count, float (*planes)[TILE_PIXELS])
 {
@@ -467,6 +478,8 @@ void refraction_tile(refraction *r, const tile_waves *waves, const tile_estimate
         see_path_traced(r, tile_x, tile_y, worker, o);
     if (r->frame->under)
         see_deep(r, at.column, at.row, o);
+    if (r->frame->under && r->truth)
+        see_deep_for_truth(o);
     see_light(r, o);
     memcpy(o->light.front, o->share, sizeof o->share);
     keep_layers(o);

@@ -82,6 +82,35 @@ static void both_sides_are_the_same(void **state)
     mgt_context_destroy(context);
 }
 
+/* A row that the horizon passes through has the light of those beside it. The rays through the middle of its pixels are below the horizon. */
+static void traced_rows_have_no_gap(void **state)
+{
+    (void)state;
+    static float color[3 * PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    static const char *const tilted[] = {"camera.target=[0, -3.15, -10]"};
+    view v = view_of(tilted, 1);
+    v.scene.quality.refraction = MGT_REFRACTION_PATH_TRACED;
+    v.scene.quality.refraction_samples = 1;
+    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_SSAA};
+    for (int i = 0; i < 2; i++) {
+        v.scene.quality.method = methods[i];
+        v.scene.quality.spatial_samples = 4;
+        const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, color, 0);
+        const mgt_status status = mgt_render(context, &v.scene, &target, 1);
+        if (status == MGT_ERROR_UNAVAILABLE)
+            skip();
+        assert_int_equal(status, MGT_OK);
+        for (int row = MIDDLE - 3; row <= MIDDLE + 1; row++) {
+            const double here = mean_green(color, row), beside = 0.5 * (mean_green(color, row - 1) + mean_green(color, row + 1));
+            printf("traced, method %d: row %d has %.3f, those beside it %.3f\n", methods[i], row, here, beside);
+            assert_true(fabs(here / beside - 1) < 0.02);
+        }
+    }
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
 /* ---- a moving camera ---- */
 
 static void tilt(mgt_camera *camera, double share) { camera->target[1] = -3 + share * 0.6; }
@@ -130,6 +159,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_sides_are_the_same),
+        cmocka_unit_test(traced_rows_have_no_gap),
         cmocka_unit_test(moving_horizons_are_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
