@@ -155,12 +155,36 @@ static void moving_horizons_are_means(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- the air before what is mirrored ---- */
+
+/* A black wall 60 km away shows the air's light alone, which is that of the sky at the horizon. Still water mirrors it as it mirrors the sky there. */
+static void mirrored_walls_have_air(void **state)
+{
+    (void)state;
+    static const char *const wall[] = {"camera={position: [0, 2, 0], target: [0, 2, -10], fov_y_deg: 4}", "water.waves=[]", "sky.turbidity=10",
+                                       "objects=[{shape: box, size: [40000, 8000, 1000], position: [0, 0, -60000], material: {base_color: [0, 0, 0]}}]"};
+    static float with[3 * PIXELS], without[3 * PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    view v = view_of(wall, 4);
+    v.scene.aerial = true;
+    render(context, &v.scene, with);
+    v.scene.object_count = 0;
+    render(context, &v.scene, without);
+    for (int row = MIDDLE + 1; row < HEIGHT; row++) {
+        printf("row %d: the mirrored wall has %.3f, the mirrored sky %.3f\n", row, mean_green(with, row), mean_green(without, row));
+        assert_true(fabs(mean_green(with, row) / mean_green(without, row) - 1) < 0.1);
+    }
+    scene_file_free(v.file);
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_sides_are_the_same),
         cmocka_unit_test(traced_rows_have_no_gap),
         cmocka_unit_test(moving_horizons_are_means),
+        cmocka_unit_test(mirrored_walls_have_air),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
