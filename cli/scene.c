@@ -34,9 +34,9 @@ static int check_frames(const scene_file *scene, const char *path, scene_error *
         if (!scene_file_frame(scene, frame, &one)) {
             snprintf(error->text, sizeof error->text, "%.300s: the camera of frame %d is not a legal one", path, frame);
             code = EXIT_CODE_BAD_INPUT;
-        } else if (mgt_scene_check(context, &one) != MGT_OK) {
+        } else if ((status = mgt_scene_check(context, &one)) != MGT_OK) {
             snprintf(error->text, sizeof error->text, "%.200s: frame %d: %.280s", path, frame, mgt_last_error(context));
-            code = EXIT_CODE_BAD_INPUT;
+            code = exit_code_of_status(status);
         }
     }
     mgt_context_destroy(context);
@@ -134,7 +134,7 @@ static const option_table scene_table = {"scene",
                                          "schema: prints the JSON Schema of scene files.",
                                          check_options,
                                          sizeof check_options / sizeof check_options[0],
-                                         .notes = "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file",
+                                         .notes = "exit codes: 0 all is well, 64 usage, 65 bad scene, 66 no such file, 69 method and scene do not go together",
                                          .operand = {.set = add_word},
                                          .changes = offsetof(scene_request, changes),
                                          .run = run};

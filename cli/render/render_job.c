@@ -148,7 +148,7 @@ static int check_frames(render_job *job)
             return code;
         const mgt_status status = mgt_scene_check(job->context, &scene);
         if (status == MGT_ERROR_SCENE || status == MGT_ERROR_UNSUPPORTED)
-            return console_error(EXIT_CODE_BAD_INPUT, "%s: frame %u: %s", r->scene_path, frame, mgt_last_error(job->context));
+            return console_error(exit_code_of_status(status), "%s: frame %u: %s", r->scene_path, frame, mgt_last_error(job->context));
         if (status != MGT_OK)
             return console_library_error(job->context, status);
         if (*interrupt_flag())

@@ -95,15 +95,6 @@ mgt_status mgt_context_get_info(const mgt_context *context, mgt_context_info *in
     return context ? struct_give(&context->report, &context_info_kind, &context->info, info) : MGT_ERROR_ARGUMENT;
 }
 
-mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
-{
-    if (!context)
-        return MGT_ERROR_ARGUMENT;
-    context->error[0] = 0;
-    mgt_scene own;
-    return scene_take(&context->report, &own, scene);
-}
-
 void announce_cpu(mgt_context *context, mgt_method method, const char *lacks)
 {
     const uint32_t bit = 1u << method;
@@ -131,6 +122,16 @@ mgt_status scene_ready(const reporter *r, mgt_scene *own)
         r, MGT_ERROR_UNSUPPORTED, "render.method",
         "method %s computes the water's surface alone, no objects and no camera under water; ssaa with refraction truth traces them by brute force",
         mgt_method_name(own->quality.method));
+}
+
+mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene)
+{
+    if (!context)
+        return MGT_ERROR_ARGUMENT;
+    context->error[0] = 0;
+    mgt_scene own;
+    const mgt_status status = scene_take(&context->report, &own, scene);
+    return status == MGT_OK ? scene_ready(&context->report, &own) : status;
 }
 
 static mgt_status render_frame(mgt_context *context, const mgt_scene *scene, const mgt_target *targets, size_t count)
