@@ -95,7 +95,7 @@ void film_path(const viewer *v, char *path, size_t size)
     const char *ending = kinds[c->kind].ending, *dot = strrchr(c->name, '.');
     const bool ended =
         dot && (strcmp(dot, ".mp4") == 0 || strcmp(dot, ".mov") == 0 || strcmp(dot, ".y4m") == 0 || strcmp(dot, ".png") == 0 || strcmp(dot, ".exr") == 0);
-    const bool whole = ended && strchr(c->name, '#') && ending[0] == '-' && strcmp(strrchr(ending, '.'), dot) == 0;
+    const bool whole = ended && (strchr(c->name, '#') || strchr(c->name, '%')) && ending[0] == '-' && strcmp(strrchr(ending, '.'), dot) == 0;
     const int length = whole || !ended ? (int)strlen(c->name) : (int)(dot - c->name);
     snprintf(path, size, "%.*s%s", length, c->name, whole ? "" : ending);
 }
