@@ -144,7 +144,8 @@ typedef struct mgt_target {
 /* Displayed colour, 8 bits, tightly packed; no pixels yet. */
 MGT_API void mgt_target_init(mgt_target *target, size_t size);
 
-/* Checks a scene as mgt_render() would, without rendering, also whether its method draws it (MGT_ERROR_UNSUPPORTED). The detail of an error is in mgt_last_error(context). */
+/* Checks a scene as mgt_render() would, without rendering, also whether its method draws it (MGT_ERROR_UNSUPPORTED). The detail of an error is in
+ * mgt_last_error(context). */
 MGT_API mgt_status mgt_scene_check(mgt_context *context, const mgt_scene *scene);
 
 /* Whether `backend` itself renders a layer of the scene as it stands: its method, refraction, objects and camera. AUTO: whether CPU or OpenGL does. False

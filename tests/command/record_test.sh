@@ -142,10 +142,10 @@ expect 0 'nothing speaks against it' "${dry[@]}" -o 'dry_%d.png' --frames 0-2 --
 expect 0 'nothing speaks against it' "${dry[@]}" -o dry.y4m --frames 0-1 --skip-existing
 absent dry_0.png dry_1.png
 # A frame that no backend draws is refused before the first frame is rendered, and by the code of the render.
-sinks=(--frames 0-2 --set 'camera={path: [{time: 0, position: [0, 1, 0], target: [0, 0, -5]}, {time: 0.1, position: [0, -4, 0], target: [0, -4, -5]}]}')
+sinks=(--frames 0-2 --set time.start=0 --set 'camera={path: [{time: 0, position: [0, 1, 0], target: [0, 0, -5]}, {time: 0.1, position: [0, -4, 0], target: [0, -4, -5]}]}')
 for way in --dry-run --quiet; do
     expect 69 'frame [12]: method reference computes the water.s surface alone' render "$simple" "${small[@]}" --method reference "${sinks[@]}" -o 'sinks_%d.png' "$way"
 done
 absent sinks_*
-expect 69 'frame 0: method reference computes' scene check "$simple" --set quality.method=reference --set camera.position=[0,-1,0] --set camera.target=[0,-1,-5]
+expect 69 'frame 0: method reference computes' "$MANGATA" scene check "$simple" --set quality.method=reference --set camera.position=[0,-1,0] --set camera.target=[0,-1,-5]
 finish
