@@ -85,4 +85,19 @@ END
 for file in undone.png again.png; do cmp -s "$file" edited.png || fail "$file is another picture than edited.png"; done
 grep -q '^mangata render first.json .*light.azimuth_deg=9' stdout.txt || fail "the command is of another scene: $(cat stdout.txt)"
 grep -q 'elevation_deg: 20' undone.yaml || fail "the saved scene is another: $(cat undone.yaml)"
+
+# Each command of a script is a step of its own, though no frame goes by between them.
+drive first.json --size 240x160 <<'END'
+set light.elevation_deg 20
+set light.azimuth_deg 10
+set light.elevation_deg 30
+undo
+expect-value light.elevation_deg 20
+expect-value light.azimuth_deg 10
+undo
+expect-value light.elevation_deg 20
+expect-refused light.azimuth_deg far
+redo
+expect-value light.azimuth_deg 10
+END
 finish

@@ -235,9 +235,10 @@ void script_step(viewer *v)
     while (!v->quit && !is_waiting(v)) {
         if (s->random_left > 0)
             step_random(v);
-        else if (read_line(s))
+        else if (read_line(s)) {
+            viewer_keep_step(v, false); /* what the command before has changed is a step of its own */
             run_line(v);
-        else
+        } else
             v->quit = true;
     }
 }
