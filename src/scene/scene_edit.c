@@ -74,6 +74,56 @@ bool scene_values_fix_files(scene_values *values, const char *scene_path)
     return good;
 }
 
+/* The path with its folder resolved, which the caller frees; a link in the last part stays. NULL: there is no such folder, or memory has run out. */
+static char *resolved(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path;
+    char *folder = slash == NULL ? strdup(".") : slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
+    char *whole = folder != NULL ? realpath(folder, NULL) : NULL, *text = NULL;
+    if (whole != NULL && asprintf(&text, "%s/%s", strcmp(whole, "/") == 0 ? "" : whole, name) < 0)
+        text = NULL;
+    free(whole);
+    free(folder);
+    return text;
+}
+
+/* `folder` ends in a slash, and so does the length `beside` of the folder above it; 0: that is the root, of which every file is a part. */
+static bool relative_file(char **file, const char *folder, size_t beside)
+{
+    const size_t length = strlen(folder);
+    char *whole = *file != NULL && **file == '/' ? resolved(*file) : NULL, *text = NULL;
+    bool good = true;
+    if (whole != NULL && strncmp(whole, folder, length) == 0)
+        good = (text = strdup(whole + length)) != NULL;
+    else if (whole != NULL && beside > 0 && strncmp(whole, folder, beside) == 0)
+        good = asprintf(&text, "../%s", whole + beside) >= 0;
+    free(whole);
+    if (!good || text == NULL)
+        return good;
+    free(*file);
+    *file = text;
+    return true;
+}
+
+bool scene_values_relative_files(scene_values *values, const char *scene_path)
+{
+    scene_object *objects = values->objects.items;
+    char *folder = resolved(scene_path);
+    if (folder == NULL)
+        return true;
+    strrchr(folder, '/')[1] = '\0';
+    size_t beside = strlen(folder) - 1;
+    while (beside > 0 && folder[beside - 1] != '/')
+        beside--;
+    beside = beside > 1 ? beside : 0;
+    bool good = relative_file(&values->water.spectrum.file, folder, beside);
+    for (size_t i = 0; i < values->objects.count; i++)
+        good &= relative_file(&objects[i].mesh, folder, beside) && relative_file(&objects[i].heights, folder, beside) &&
+                relative_file(&objects[i].material.texture, folder, beside);
+    free(folder);
+    return good;
+}
+
 /* ---- paths ------------------------------------------------------------------------------------------------- */
 
 static const field_row *child_field(const field_row *field, const char *word, size_t length) { return field_find(field->fields, word, length); }

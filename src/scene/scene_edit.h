@@ -23,6 +23,10 @@ void scene_values_write_out_sea(scene_values *values);
 /* Makes the paths of meshes, textures, heights and a buoy's table independent of the folder of the scene's file. False: out of memory. */
 bool scene_values_fix_files(scene_values *values, const char *scene_path);
 
+/* The opposite: paths of files in the folder of `scene_path`, in that beside it or below these become relative to the scene's folder, others stay. The scene's
+ * file need not exist, its folder must. False: out of memory. */
+bool scene_values_relative_files(scene_values *values, const char *scene_path);
+
 /* scene_file_parse() for a text that differs little from `like`. Objects that are unchanged share its models. `like` may be NULL. */
 scene_file *scene_file_parse_like(const scene_values *like, const char *text, size_t length, const char *name, const char *const *overrides,
                                   size_t override_count, scene_error *error);

@@ -100,4 +100,22 @@ expect-refused light.azimuth_deg far
 redo
 expect-value light.azimuth_deg 10
 END
+
+# Saved scenes and commands name files beside the scene by relative paths, and those elsewhere by whole ones.
+mkdir -p tree/scenes tree/other tree/models far/away
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' | tee tree/models/three.obj >tree/scenes/own.obj
+printf 'mangata: 1\nobjects: [{mesh: ../models/three.obj}, {mesh: own.obj}]\nwater: {waves: [{amplitude: 0.05, a: 1.5, b: 0.7, c: -4}]}\n' >tree/scenes/two.yaml
+drive tree/scenes/two.yaml --size 240x160 <<'END'
+set objects[0].dry true
+command
+save-scene tree/other/saved.yaml
+save-scene far/away/saved.yaml
+END
+grep -q 'mesh: "\?../models/three.obj' tree/other/saved.yaml || fail "no relative path: $(cat tree/other/saved.yaml)"
+grep -q 'mesh: "\?../scenes/own.obj' tree/other/saved.yaml || fail "no relative path: $(cat tree/other/saved.yaml)"
+grep -q "$PWD/tree/scenes/own.obj" far/away/saved.yaml || fail "no whole path: $(cat far/away/saved.yaml)"
+! grep -q "$PWD" stdout.txt || fail "the command has whole paths: $(cat stdout.txt)"
+expect 0 '' "$MANGATA" scene check tree/other/saved.yaml far/away/saved.yaml --quiet
+mv tree moved
+expect 0 '' "$MANGATA" scene check moved/other/saved.yaml --quiet
 finish

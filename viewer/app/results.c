@@ -40,10 +40,12 @@ char *viewer_command(const viewer *v)
     size_t size = 0;
     if (!viewer_frame_values(v, v->place.width, v->place.height, &values))
         return NULL;
-    FILE *stream = scene_overrides_between(scene_file_values(v->document.source->file), &values, &words) ? open_memstream(&text, &size) : NULL;
+    const char *path = v->document.source->path;
+    const bool good = strncmp(path, "--", 2) == 0 || scene_values_relative_files(&values, path);
+    FILE *stream = good && scene_overrides_between(scene_file_values(v->document.source->file), &values, &words) ? open_memstream(&text, &size) : NULL;
     if (stream) {
         fputs("mangata render", stream);
-        shell_scene(stream, v->document.source->path);
+        shell_scene(stream, path);
         fputs(" -o frame.png --frames 0", stream);
         write_method(stream, v, &q);
         if (v->settings.view.layer != MGT_LAYER_COLOR && v->settings.view.layer != MGT_LAYER_DEPTH)

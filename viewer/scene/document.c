@@ -307,11 +307,11 @@ void document_save_name(const document *d, char *name, size_t size)
     snprintf(name, size, "%.*s%s.yaml", (int)length, path, edited ? "" : "-edited");
 }
 
-/* Whether the text, read back, gives the same scene. If not, `error` says so. */
-static bool reads_back(const char *text, size_t size, const scene_values *values, file_error *error)
+/* Whether the text, read back as the file at `path`, gives the same scene. If not, `error` says so. */
+static bool reads_back(const char *text, size_t size, const char *path, const scene_values *values, file_error *error)
 {
     scene_error problem = {0};
-    scene_file *file = scene_file_parse_like(values, text, size, "the scene", NULL, 0, &problem);
+    scene_file *file = scene_file_parse_like(values, text, size, path, NULL, 0, &problem);
     char *expected = file ? scene_values_canonical(values, NULL) : NULL, *found = file ? scene_file_canonical(file, NULL) : NULL;
     const bool same = expected && found && strcmp(expected, found) == 0;
     if (!same)
@@ -326,10 +326,15 @@ file_status document_save(const scene_values *values, const char *path, bool ove
 {
     const output_options options = {.overwrite = overwrite};
     size_t size = 0;
-    char *text = text_of_values(values, &size);
+    scene_values written;
+    char *text = NULL;
+    if (scene_values_copy(&written, values)) {
+        text = scene_values_relative_files(&written, path) ? text_of_values(&written, &size) : NULL;
+        scene_values_free(&written);
+    }
     if (!text)
         return file_error_set(error, FILE_MEMORY, "out of memory");
-    file_status status = reads_back(text, size, values, error) ? FILE_OK : FILE_ARGUMENT;
+    file_status status = reads_back(text, size, path, values, error) ? FILE_OK : FILE_ARGUMENT;
     if (status == FILE_OK)
         status = output_file_write_whole(path, text, size, &options, error);
     free(text);

@@ -55,7 +55,8 @@ void document_refresh(document *d);
 /* Replaces the values. Takes ownership of what `values` owns. */
 void document_replace(document *d, scene_values *values);
 
-/* Writes `values` as a scene file to `path`, whole or not at all, after reading it back in memory. */
+/* Writes `values` as a scene file to `path`, whole or not at all, after reading it back in memory. Paths of
+ * files in the folder of `path` or beside it are written relative to that. */
 file_status document_save(const scene_values *values, const char *path, bool overwrite, file_error *error);
 
 /* The file's name without its folder. */
