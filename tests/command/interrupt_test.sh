@@ -19,8 +19,8 @@ long=(--method reference --spatial 16 --size 3840x2160)
 stops INT 130 a.png "${long[@]}"
 stops TERM 143 a.exr "${long[@]}" --layer all
 stops INT 130 a.y4m "${long[@]}" --frames 0-9
-stops TERM 143 b.y4m --frames 0-99999 --size 640x360 "${null[@]}"
-command -v ffmpeg >/dev/null && stops INT 130 b.mp4 --frames 0-99999 --size 640x360 "${null[@]}"
+stops TERM 143 b.y4m --frames 0-99999 --set time.frames=100000 --size 640x360 "${null[@]}"
+command -v ffmpeg >/dev/null && stops INT 130 b.mp4 --frames 0-99999 --set time.frames=100000 --size 640x360 "${null[@]}"
 
 # While a scene is read from a pipe that stays open.
 timeout -s TERM -k 20 --preserve-status 1 "$MANGATA" render - -o pipe.png < <(exec sleep 3) 2>stderr.txt
