@@ -161,6 +161,18 @@ static void incomplete_hosts_are_refused(void **state)
 
 /* ---- a host's errors, and a context that is lost ---- */
 
+/* A context in the host's own, whose log ids are kept. */
+static mgt_context_desc logged_desc(mgt_gl_get_proc get_proc, log_record *log)
+{
+    mgt_context_desc desc;
+    mgt_context_desc_init(&desc, sizeof desc);
+    desc.backend = MGT_BACKEND_GL;
+    desc.gl_get_proc = get_proc;
+    desc.log = keep_log;
+    desc.log_user = log;
+    return desc;
+}
+
 /* The host's own error is no failure of creation; the log tells it. */
 static void pending_errors_are_cleared(void **state)
 {
@@ -168,12 +180,7 @@ static void pending_errors_are_cleared(void **state)
     gl_host h;
     gl_host_start(&h);
     log_record log = {0};
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = gl_egl_get_proc;
-    desc.log = keep_log;
-    desc.log_user = &log;
+    const mgt_context_desc desc = logged_desc(gl_egl_get_proc, &log);
     mgt_context *context = NULL;
     h.gl.Enable(0xdead);
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
@@ -230,12 +237,7 @@ static void lost_contexts_are_told(void **state)
     (void)state;
     gl_host_start(&lossy);
     log_record log = {0};
-    mgt_context_desc desc;
-    mgt_context_desc_init(&desc, sizeof desc);
-    desc.backend = MGT_BACKEND_GL;
-    desc.gl_get_proc = lossy_get_proc;
-    desc.log = keep_log;
-    desc.log_user = &log;
+    const mgt_context_desc desc = logged_desc(lossy_get_proc, &log);
     mgt_context *context = NULL;
     assert_int_equal(mgt_context_create(&context, &desc), MGT_OK);
     static float pixels[PIXELS];

@@ -80,6 +80,14 @@ static void draw_views(const engine *e, const mgt_scene *scene, const mgt_gl_vie
     clean();
 }
 
+/* The picture of one view in the engine's framebuffer, which is cleared first. */
+static void draw_picture(const engine *e, const mgt_scene *scene, const mgt_gl_view *view, picture *out)
+{
+    clear(e);
+    draw_views(e, scene, view, 1);
+    read_picture(e->framebuffer, out);
+}
+
 static int difference(const uint8_t a[4], const uint8_t b[4])
 {
     int most = 0;
@@ -266,9 +274,7 @@ static void compare_view(const mgt_scene *drawn_scene, int divisor)
     mgt_scene scene = *drawn_scene;
     engine e = start(DEPTH_INFINITE_REVERSED);
     const mgt_gl_view view = whole_view(&e);
-    clear(&e);
-    draw_views(&e, &scene, &view, 1);
-    read_picture(e.framebuffer, &drawn);
+    draw_picture(&e, &scene, &view, &drawn);
     assert_lively(&drawn);
 
     scene.image = (mgt_image){.width = WIDTH, .height = HEIGHT};
@@ -336,9 +342,7 @@ static void parts_make_the_whole(void **state)
     for (int convention = 0; convention < CONVENTIONS; convention += 1 + MGT_SANITIZED) {
         engine e = start((depth_convention)convention);
         const mgt_gl_view view = whole_view(&e);
-        clear(&e);
-        draw_views(&e, &scene, &view, 1);
-        read_picture(e.framebuffer, &whole);
+        draw_picture(&e, &scene, &view, &whole);
         assert_lively(&whole);
 
         const mgt_gl_view quarters[4] = {part_of(view, 0, 42, 64, 48), part_of(view, 64, 42, 96, 48), part_of(view, 0, 0, 64, 42),
@@ -368,9 +372,7 @@ static void multisampled_framebuffer(void **state)
     const mgt_scene scene = make_scene(waves, test_time);
     engine e = start(DEPTH_REVERSED);
     mgt_gl_view view = whole_view(&e);
-    clear(&e);
-    draw_views(&e, &scene, &view, 1);
-    read_picture(e.framebuffer, &plain);
+    draw_picture(&e, &scene, &view, &plain);
 
     GLuint framebuffer, buffers[2];
     glCreateFramebuffers(1, &framebuffer);
@@ -402,9 +404,7 @@ static void upper_left_origin(void **state)
     const mgt_scene scene = make_scene(waves, test_time);
     engine e = start(DEPTH_REVERSED);
     const mgt_gl_view view = whole_view(&e);
-    clear(&e);
-    draw_views(&e, &scene, &view, 1);
-    read_picture(e.framebuffer, &upright);
+    draw_picture(&e, &scene, &view, &upright);
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     clear(&e);
     draw_views(&e, &scene, &view, 1);
@@ -461,9 +461,7 @@ static void the_first_draw_buffer_counts(void **state)
     engine e = start(DEPTH_REVERSED);
     mgt_gl_view view = whole_view(&e);
     view.color = MGT_GL_COLOR_DISPLAY;
-    clear(&e);
-    draw_views(&e, &scene, &view, 1);
-    read_picture(e.framebuffer, &plain);
+    draw_picture(&e, &scene, &view, &plain);
     assert_lively(&plain);
     static const GLenum formats[][2] = {{GL_RGBA8, GL_SRGB8_ALPHA8}, {GL_SRGB8_ALPHA8, GL_RGBA8}, {GL_RGBA8UI, GL_RGBA8}, {GL_NONE, GL_RGBA8}};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
@@ -510,9 +508,7 @@ static void default_framebuffer(void **state)
     const mgt_scene scene = make_scene(waves, test_time);
     engine e = start(DEPTH_STANDARD);
     mgt_gl_view view = whole_view(&e);
-    clear(&e);
-    draw_views(&e, &scene, &view, 1);
-    read_picture(e.framebuffer, &textured);
+    draw_picture(&e, &scene, &view, &textured);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     view.framebuffer = 0;

@@ -5,7 +5,7 @@
  */
 #include "unit/api_sea.h"
 
-#include "scene/scene_file.h"
+#include "unit/text_scene.h"
 
 enum { WIDTH = 16, HEIGHT = 24, MIDDLE = HEIGHT / 2, PIXELS = WIDTH * HEIGHT };
 
@@ -22,22 +22,6 @@ static const char sea[] = "mangata: 1\n"
                           "    - {amplitude: 0.06, a: -1.2, b: 1.9, c: -4.7, phase: 2.1}\n"
                           "    - {amplitude: 0.03, a: 2.9, b: 3.4, c: -6.6, phase: 4}\n"
                           "    - {amplitude: 0.01, a: -9, b: 7, c: -10.6, phase: 1}\n";
-
-typedef struct view {
-    scene_file *file;
-    mgt_scene scene;
-} view;
-
-static view view_of(const char *const *overrides, size_t count)
-{
-    view v = {0};
-    scene_error error;
-    v.file = scene_file_parse(sea, sizeof sea - 1, "sea", overrides, count, &error);
-    if (!v.file)
-        fail_msg("%s", error.text);
-    assert_true(scene_file_frame(v.file, 0, &v.scene));
-    return v;
-}
 
 static void render(mgt_context *context, const mgt_scene *scene, float color[3 * PIXELS])
 {
@@ -62,7 +46,7 @@ static void both_sides_are_the_same(void **state)
     (void)state;
     static float color[3 * PIXELS];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(NULL, 0);
+    text_scene v = text_scene_read(sea, NULL, 0);
     static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_PODEE_PIXEL};
     static const mgt_refraction ways[] = {MGT_REFRACTION_TWO_PHASE, MGT_REFRACTION_HYBRID, MGT_REFRACTION_OFF, MGT_REFRACTION_PATH_TRACED};
     for (int i = 0; i < 12; i++) {
@@ -89,7 +73,7 @@ static void traced_rows_have_no_gap(void **state)
     static float color[3 * PIXELS];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     static const char *const tilted[] = {"camera.target=[0, -3.15, -10]"};
-    view v = view_of(tilted, 1);
+    text_scene v = text_scene_read(sea, tilted, 1);
     v.scene.quality.refraction = MGT_REFRACTION_PATH_TRACED;
     v.scene.quality.refraction_samples = 1;
     static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_SSAA};
@@ -122,7 +106,7 @@ static void moving_horizons_are_means(void **state)
     enum { INSTANTS = 16 };
     static float color[3 * PIXELS], instant[3 * PIXELS], mean[3 * PIXELS];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(NULL, 0);
+    text_scene v = text_scene_read(sea, NULL, 0);
     v.scene.shutter = 1e-4; /* the waves stand still */
     v.scene.camera_moves = true;
     static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_SSAA};
@@ -165,7 +149,7 @@ static void mirrored_walls_have_air(void **state)
                                        "objects=[{shape: box, size: [40000, 8000, 1000], position: [0, 0, -60000], material: {base_color: [0, 0, 0]}}]"};
     static float with[3 * PIXELS], without[3 * PIXELS];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(wall, 4);
+    text_scene v = text_scene_read(sea, wall, 4);
     v.scene.aerial = true;
     render(context, &v.scene, with);
     v.scene.object_count = 0;

@@ -5,7 +5,7 @@
  */
 #include "unit/api_sea.h"
 
-#include "scene/scene_file.h"
+#include "unit/text_scene.h"
 
 enum { WIDTH = 61, HEIGHT = 35, MOST_PIXELS = 4096 * 16, LAYERS = 8 };
 
@@ -27,22 +27,6 @@ static const char pool[] = "mangata: 1\n"
                            "  - {shape: sphere, size: [0.5, 0.5, 0.5], position: [0.9, 0.8, 0], material: {metallic: 1, roughness: 0.02}}\n"
                            "  - {shape: sphere, size: [0.6, 0.6, 0.6], position: [0.7, -1.1, 0.8]}\n"
                            "  - {shape: box, size: [6, 2, 0.2], position: [0, 1, -3.6], material: {pattern: checker, pattern_size: 0.5}}\n";
-
-typedef struct view {
-    scene_file *file;
-    mgt_scene scene;
-} view;
-
-static view view_of(const char *const *overrides, size_t count)
-{
-    view v = {0};
-    scene_error error;
-    v.file = scene_file_parse(pool, sizeof pool - 1, "pool", overrides, count, &error);
-    if (!v.file)
-        fail_msg("%s", error.text);
-    assert_true(scene_file_frame(v.file, 0, &v.scene));
-    return v;
-}
 
 static const struct {
     mgt_layer layer;
@@ -173,7 +157,7 @@ static void every_refraction_ends(void **state)
         size_t count = 0;
         while (count < 4 && cases[i].overrides[count])
             count++;
-        view v = view_of(cases[i].overrides, count);
+        text_scene v = text_scene_read(pool, cases[i].overrides, count);
         for (int r = MGT_SANITIZED ? i % 4 : 0; r <= MGT_REFRACTION_PATH_TRACED; r += 1 + 3 * MGT_SANITIZED)
             for (int caustics = MGT_SANITIZED ? (i + r) / 4 % 2 : 0; caustics < 2; caustics += 1 + MGT_SANITIZED) {
                 v.scene.quality.refraction = (mgt_refraction)r;
@@ -199,7 +183,7 @@ static void index_one_is_straight(void **state)
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     for (int i = 0; i < 4; i++) {
         const char *const overrides[] = {cameras[i % 2], "water.ior=1", i < 2 ? "water.waves=[]" : "water.level=0"};
-        view v = view_of(overrides, 3);
+        text_scene v = text_scene_read(pool, overrides, 3);
         v.scene.quality.method = MGT_METHOD_NONE;
         v.scene.quality.refraction = MGT_REFRACTION_OFF;
         assert_int_equal(draw(context, &v.scene, "index 1, straight"), DRAWN_WELL);
@@ -251,7 +235,7 @@ static void outlines_in_front_are_whole(void **state)
 {
     (void)state;
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(ball, 2);
+    text_scene v = text_scene_read(pool, ball, 2);
     v.scene.quality.method = MGT_METHOD_NONE;
     assert_int_equal(draw(context, &v.scene, "a ball"), DRAWN_WELL);
     const double small = mean_mask(&v.scene);
@@ -270,7 +254,7 @@ static void what_hides_water_is_not_seen_through_it(void **state)
     (void)state;
     static float wanted[3 * WIDTH * HEIGHT];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(ball, 2);
+    text_scene v = text_scene_read(pool, ball, 2);
     v.scene.quality.method = MGT_METHOD_NONE;
     v.scene.quality.refraction = MGT_REFRACTION_PATH_TRACED;
     if (draw(context, &v.scene, "a ball, traced") == NOT_DRAWN)
@@ -305,7 +289,7 @@ static void things_in_one_plane_have_an_edge(void **state)
          "{shape: box, size: [3, 0.4, 3], position: [1.5, 0.4, 0], material: {base_color: [0.8, 0.8, 0.8], roughness: 1}}]",
          "camera={position: [0.05, 4, 0], target: [0.05, 0, 0], up: [0.3, 0, -1], fov_y_deg: 30}", "time.shutter=0"};
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(slabs, 3);
+    text_scene v = text_scene_read(pool, slabs, 3);
     v.scene.quality.method = MGT_METHOD_NONE;
     assert_int_equal(draw(context, &v.scene, "slabs"), DRAWN_WELL);
     int rows = 0, smooth = 0;
@@ -354,7 +338,7 @@ static void every_method_shows_objects(void **state)
     static float mask[WIDTH * HEIGHT], color[3 * WIDTH * HEIGHT];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     for (int i = 0; i < 2; i++) {
-        view v = view_of(&cameras[i], 1);
+        text_scene v = text_scene_read(pool, &cameras[i], 1);
         v.scene.quality.spatial_samples = 2;
         assert_int_equal(draw(context, &v.scene, "the default method"), DRAWN_WELL);
         memcpy(mask, planes[2], sizeof mask);
@@ -401,7 +385,7 @@ static void what_objects_hide_takes_no_samples(void **state)
     static float few[WIDTH * HEIGHT];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     for (int i = 0; i < 2; i++) {
-        view v = view_of(&cameras[i], 1);
+        text_scene v = text_scene_read(pool, &cameras[i], 1);
         v.scene.quality.method = MGT_METHOD_ADAPTIVE;
         v.scene.quality.samples = 1;
         assert_int_equal(draw(context, &v.scene, "adaptive"), DRAWN_WELL);
@@ -493,7 +477,7 @@ static void ranges_of_objects_end_where_stated(void **state)
     assert_int_equal(make_with_texcoord(1.001e6f), MGT_ERROR_ARGUMENT);
     assert_int_equal(make_with_texcoord(NAN), MGT_ERROR_ARGUMENT);
 
-    const view v = view_of(NULL, 0);
+    const text_scene v = text_scene_read(pool, NULL, 0);
     mgt_context *context = sea_context(1, MGT_ISA_AUTO);
     mgt_scene scene = v.scene;
     mgt_object object = v.scene.objects[0]; /* of tiles */
@@ -551,7 +535,7 @@ static void poor_triangles_render(void **state)
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
     int bad = 0;
     for (int i = 0; i < 3; i++) {
-        view v = view_of(&cameras[i], 1);
+        text_scene v = text_scene_read(pool, &cameras[i], 1);
         mgt_object object = v.scene.objects[1];
         object.mesh = mesh;
         memcpy(object.transform, (double[3][4]){{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, sizeof object.transform);
@@ -576,7 +560,7 @@ static void crops_and_long_pictures(void **state)
     (void)state;
     static float whole[3 * WIDTH * HEIGHT];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    view v = view_of(NULL, 0);
+    text_scene v = text_scene_read(pool, NULL, 0);
     for (int r = 0; r <= MGT_REFRACTION_PATH_TRACED; r++) {
         v.scene.quality.refraction = (mgt_refraction)r;
         v.scene.quality.refraction_samples = 1;
