@@ -33,8 +33,8 @@ option_set option_error_map;
 /* The set of metrics that have a map: bits 1u << clip_metric. */
 uint32_t diff_maps_metrics(const diff_maps *maps);
 
-/* Checks the names of the maps: numbered if there are `numbered` frames, none twice, none of the files of `inputs` (NULL: none), however spelt, and no existing file
- * without --overwrite. Returns an exit code; errors are printed. */
+/* Checks the names of the maps: they have numbers if `numbered`, no two are one file, none is a file of `inputs` (NULL: none), however it is spelt, and none
+ * exists without --overwrite. Returns an exit code; errors are printed. */
 int diff_maps_check(const diff_maps *maps, bool numbered, const frame_list *frames, const frame_path *const inputs[DIFF_INPUTS]);
 
 /* Whether some map shows errors without a greatest value in colours, which --error-top is for. */

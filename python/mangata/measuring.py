@@ -135,7 +135,8 @@ def metrics(
 
 
 def error_map(a: ArrayLike, b: ArrayLike, metric: str = "flip", *, encoding: Optional[str] = None, pixels_per_degree: float = 0.0) -> np.ndarray:
-    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or "ssim" (1 − SSIM): docs/metrics.md.
+    """The error of each pixel of a against b, float32 (h, w), by "rmse", "relrmse" (over b's own strength), "flip", "hdr-flip" or
+    "ssim" (1 − SSIM): docs/metrics.md.
 
     NaN at pixels that cannot be compared, as those that are NaN in a alone. Arrays and `encoding` are those of metrics()."""
     mapped = ("rmse", "relrmse", "flip", "hdr-flip", "ssim")

@@ -24,7 +24,7 @@ typedef struct image_metrics {
 
 /* Whether two values have a difference. They have none if one of them is NaN, if only one is finite, or if they are different infinities. */
 bool image_values_comparable(float a, float b);
-/* The same in words, for messages. */
+/* The rule of image_values_comparable() in words, for messages. */
 extern const char image_mismatch_text[];
 
 /* Adds one frame. FILE_ARGUMENT: sizes or channels differ, and nothing was added. */

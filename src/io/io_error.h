@@ -16,8 +16,8 @@ mgt_io_status io_error_take_file(mgt_io_error *error, mgt_io_status status, cons
 /* Fills `error` from a file_error. `path`: the file, or NULL if it concerns none. Returns the status for it. */
 mgt_io_status io_error_of_file(mgt_io_error *error, const file_error *from, const char *path);
 
-/* Copies a text of src/scene in the words of the library. "--set key=value" and "--sea words" of the command become "change key=value" and "sea words". `size` is at
- * least 1. What does not fit is left out. */
+/* Copies a text of src/scene in the words of the library. "--set key=value" and "--sea words" of the command become "change key=value" and "sea words". What
+ * does not fit into `size`, at least 1, is left out. */
 void io_copy_words(char *out, size_t size, const char *text);
 
 #endif
