@@ -14,7 +14,7 @@ crop_of() { # FILE X Y W H OUT: the rectangle of a grey PFM, as raw bytes
         dd if="$1" bs=4 iflag=skip_bytes,count_bytes skip=$((header + 4 * ((height - 1 - row) * width + $2))) count=$((4 * $4)) status=none >>"$6"
     done
 }
-more_threads=(2 7) film=0-59
+more_threads=(2 7) film=20-39
 declare -A views=([hull]="two-phase broad screen-space" [diver]="two-phase hybrid truth")
 [[ -z ${SANITIZED:-} ]] || more_threads=(7) film=29-31 views=([hull]="hybrid truth")
 # Instruction sets with fma beside the one that is chosen.

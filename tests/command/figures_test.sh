@@ -81,8 +81,8 @@ exists fits/fig21.svg
 [[ ! -s stdout.txt ]] || fail "a plate is no data: $(head -c 200 stdout.txt)"
 
 # Killed without warning, it goes on.
-size=64x36 spatial=8 pictures=56
-[[ -z ${SANITIZED:-} ]] || size=40x22 spatial=4 pictures=28
+size=40x22 spatial=4 pictures=56
+[[ -z ${SANITIZED:-} ]] || pictures=28
 slow=(--only table1 --size $size --spatial $spatial --time-samples 4 --frames $frames --time-runs 0 --progress json --quiet)
 signalled KILL '(($(grep -c "\"event\":\"frame\"" signalled.txt) >= 3))' "$MANGATA" figures --scenes "$scenes" -o k "${slow[@]}"
 count=$(grep -c '"event":"frame"' signalled.txt)
