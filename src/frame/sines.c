@@ -109,21 +109,37 @@ static void store_keys(wave_set *set, size_t i, const SortData *s)
         set->keys[key][i] = keys[key];
 }
 
+/* Number of octaves of waves. n octaves of equal weight have a standard deviation of log2 |k| of n/√12. `octave` and `octave_squared` are the sums of slope
+ * variance times log2 |k| and its square. */
+static double octaves_of(double slope_variance, double octave, double octave_squared)
+{
+    if (!(slope_variance > 0))
+        return 0;
+    const double mean = octave / slope_variance;
+    return sqrt(12 * fmax(octave_squared / slope_variance - mean * mean, 0));
+}
+
 void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set)
 {
     const slope_covariance covariance = covariance_of(water);
-    double variance = 0, slope_variance = 0;
+    double variance = 0, slope_variance = 0, octave = 0, octave_squared = 0;
     for (size_t i = water->wave_count; i-- > 0;) { /* the smallest wave first: lesser_variance sums up the smaller ones */
         const mgt_wave *w = &water->waves[order[i]];
         SortData s = sort_data(w, at);
         set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half, &covariance);
         variance += w->amplitude * w->amplitude / 2;
-        slope_variance += w->amplitude * w->amplitude * (w->kx * w->kx + w->kz * w->kz) / 2;
+        const double k_squared = w->kx * w->kx + w->kz * w->kz, slopes = w->amplitude * w->amplitude * k_squared / 2;
+        slope_variance += slopes;
+        if (slopes > 0) {
+            octave += slopes * log2(k_squared) / 2;
+            octave_squared += slopes * log2(k_squared) * log2(k_squared) / 4;
+        }
         s.lesser_variance = (float)variance;
         store_keys(set, i, &s);
     }
     set->view.displacement = (float)(4 * sqrt(variance));
     set->view.slope_deviation = (float)sqrt(slope_variance);
+    set->view.octaves = (float)octaves_of(slope_variance, octave, octave_squared);
     set->view.pressed = (float)sines_pressed(water);
     set->view.wave_count = (int)water->wave_count;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Where the far water ends. Under water both sides of the horizon show the water's own light, whether the camera rests or moves, by traced rays as well.
- * Above, what the water mirrors of a far wall has the air's light.
+ * Above, what the water mirrors of a far wall has the air's light, and water of few octaves mirrors as much of the sky as brute force says.
  */
 #include "unit/api_sea.h"
 
@@ -162,13 +162,44 @@ static void mirrored_walls_have_air(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- few octaves ---- */
+
+/* A breeze over a short fetch has waves of three octaves, which hide each other as those of one scale do. Rows of 1/16 of a degree. */
+static void few_octaves_mirror_the_sky(void **state)
+{
+    (void)state;
+    static const char breeze[] = "mangata: 1\n"
+                                 "image: {width: 16, height: 24}\n"
+                                 "camera: {position: [0, 2.5, 0], target: [0, 2.5, -10], fov_y_deg: 1.5}\n"
+                                 "light: {elevation_deg: 44, azimuth_deg: 285}\n"
+                                 "time: {start: 10}\n"
+                                 "water:\n"
+                                 "  spectrum: {model: jonswap, wind: 2.5, fetch: 400, direction_deg: 150, shortest: 0.08, count: 48, seed: 3}\n";
+    static float color[3 * PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    text_scene t = text_scene_read(breeze, NULL, 0);
+    double sums[2] = {0};
+    for (int side = -1; side <= 1; side++)
+        for (int truth = 0; truth < 2; truth++) {
+            t.scene.camera.target[0] = 3 * side;
+            t.scene.quality.method = truth ? MGT_METHOD_REFERENCE : MGT_METHOD_MANGATA;
+            t.scene.quality.spatial_samples = 6;
+            t.scene.quality.time_samples = 1;
+            render(context, &t.scene, color);
+            for (int row = MIDDLE + 1; row < HEIGHT; row++)
+                sums[truth] += mean_green(color, row);
+        }
+    print_message("  green of 11 rows under the horizon over brute force's: %.3f\n", sums[0] / sums[1]);
+    assert_true(fabs(sums[0] / sums[1] - 1) <= 0.03);
+    scene_file_free(t.file);
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_sides_are_the_same),
-        cmocka_unit_test(traced_rows_have_no_gap),
-        cmocka_unit_test(moving_horizons_are_means),
-        cmocka_unit_test(mirrored_walls_have_air),
+        cmocka_unit_test(both_sides_are_the_same), cmocka_unit_test(traced_rows_have_no_gap),    cmocka_unit_test(moving_horizons_are_means),
+        cmocka_unit_test(mirrored_walls_have_air), cmocka_unit_test(few_octaves_mirror_the_sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
