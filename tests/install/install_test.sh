@@ -129,3 +129,11 @@ cmp "$work/a.ppm" "$work/c.ppm" || die "the static build of the example differs"
 # What the static library needs is named, not a file of one version of it, which another system may not have.
 ! grep -nE 'lib[a-z0-9_]+\.(so|a)\.[0-9]' "$folder/cmake/mangata/mangata-config.cmake" || die "the CMake package names the file of one version"
 ! "$work/user/build/user" "$work/no/such/folder.ppm" || die "the example hides a failure"
+
+# A tree in a folder with spaces: its pages, and the declarations for Python.
+ln -s "$source" "$work/a tree"
+"$cmake" -S "$work/a tree" -B "$work/a build" -DMANGATA_TOOLS=OFF -DCMAKE_C_COMPILER="$cc" >"$work/spaces.log" 2>&1 &&
+    "$cmake" --build "$work/a build" --target installed_pages >>"$work/spaces.log" 2>&1 || die "$(cat "$work/spaces.log")"
+diff -r "$build/docs" "$work/a build/docs" || die "a tree in a folder with spaces installs other pages"
+"$source/scripts/declarations" "$cc" "$work/a tree/include" "$work/a build/declarations.h"
+diff "$build/python/declarations.h" "$work/a build/declarations.h" || die "a tree in a folder with spaces has other declarations"
