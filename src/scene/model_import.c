@@ -36,10 +36,10 @@ static bool refuse(model_fault *fault, const char *path, const char *what)
 
 /* ---- finding the program ------------------------------------------------------------------------------------------ */
 
-/* Beside `file`, or where programs for programs alone stand from there. */
+/* Beside `file`, or where programs for programs alone stand from the folder of programs and from that of libraries. */
 static bool is_beside(const char *file, char program[PATH_MAX])
 {
-    static const char *const places[] = {"mangata-import", "../libexec/mangata/mangata-import"};
+    static const char *const places[] = {"mangata-import", MGT_LIBEXEC_FROM_PROGRAMS "/mangata-import", MGT_LIBEXEC_FROM_LIBRARIES "/mangata-import"};
     const char *slash = strrchr(file, '/');
     for (size_t i = 0; slash != NULL && i < sizeof places / sizeof *places; i++)
         if (snprintf(program, PATH_MAX, "%.*s/%s", (int)(slash - file), file, places[i]) < PATH_MAX && access(program, X_OK) == 0)
@@ -47,17 +47,16 @@ static bool is_beside(const char *file, char program[PATH_MAX])
     return false;
 }
 
+/* A library takes that of its own installation, not one which is beside the program that loads it, such as Python's. */
 static bool find_program(char program[PATH_MAX])
 {
     char self[PATH_MAX];
     const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
     Dl_info library;
     self[length > 0 ? length : 0] = '\0';
-    if (is_beside(self, program))
-        return true;
     if (dladdr((const void *)(uintptr_t)find_program, &library) == 0 || library.dli_fname == NULL)
         library.dli_fname = "";
-    if (is_beside(library.dli_fname, program))
+    if (is_beside(library.dli_fname, program) || is_beside(self, program))
         return true;
     snprintf(program, PATH_MAX, "%s", MGT_LIBEXEC "/mangata-import");
     return access(program, X_OK) == 0;
