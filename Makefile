@@ -35,8 +35,9 @@ bench-gpu: all
 	cmake --build build --target benchmarks
 	scripts/bench_gpu
 
+# Everyone may read what is installed, whatever the umask of who installs it.
 install: all
-	cmake --install build
+	umask 022 && cmake --install build
 
 clean:
 	rm -rf build demo
