@@ -26,6 +26,11 @@ library=$(find "$prefix" -name libmangata.so)
 folder=$(dirname "$library")
 [[ -n $library && -x $prefix/bin/mangata ]] || die "not installed: $(cat "$work/install.log")"
 "$prefix/bin/mangata" --version >/dev/null
+if command -v python3 >/dev/null; then
+    for file in man/man1/mangata.1.gz man/man1/mangata-render.1.gz bash-completion/completions/mangata zsh/site-functions/_mangata; do
+        [[ -s $prefix/share/$file ]] || die "share/$file is not installed"
+    done
+fi
 
 # Each public header compiles alone, as C17 and as C++17, with every warning an error.
 warnings=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only -I "$prefix/include")
