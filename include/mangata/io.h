@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Scene files, pictures and metrics: the library libmangata-io, beside libmangata, for programs that want files. */
+ * Scene files, pictures and metrics: the library libmangata-io, beside libmangata, for programs that want files. Numbers in files and texts have a decimal
+ * point, whatever the locale of the program. */
 #ifndef MANGATA_IO_H
 #define MANGATA_IO_H
 

@@ -7,6 +7,7 @@
 #include "base/struct_size.h"
 #include "image/metrics_clip.h"
 #include "io/io_error.h"
+#include "io/plain_numbers.h"
 
 mgt_io_status mgt_io_picture_read(mgt_io_picture *picture, const char *path, const char *layer, mgt_io_error *error)
 {
@@ -19,7 +20,10 @@ mgt_io_status mgt_io_picture_read(mgt_io_picture *picture, const char *path, con
     }
     if (!fits || !path)
         return io_error_take(error, MGT_IO_ARGUMENT, "a pointer or picture.struct_size is missing");
-    if (picture_read(&image, path, layer, &problem) != FILE_OK)
+    const plain_numbers numbers = plain_numbers_begin();
+    const file_status status = picture_read(&image, path, layer, &problem);
+    plain_numbers_end(numbers);
+    if (status != FILE_OK)
         return io_error_of_file(error, &problem, path);
     picture->width = image.width;
     picture->height = image.height;

@@ -5,6 +5,7 @@
 
 #include "base/struct_size.h"
 #include "io/io_error.h"
+#include "io/plain_numbers.h"
 #include "scene/scene_file.h"
 #include "scene/scene_text.h"
 
@@ -48,7 +49,10 @@ mgt_io_status mgt_scene_file_load(mgt_scene_file **file, const char *path, const
     scene_error problem = {0};
     if (!begin(file, path, path, changes, change_count))
         return missing_argument(error);
-    return finish(file, scene_file_load(path, changes, change_count, &problem), path, &problem, error);
+    const plain_numbers numbers = plain_numbers_begin();
+    scene_file *const loaded = scene_file_load(path, changes, change_count, &problem);
+    plain_numbers_end(numbers);
+    return finish(file, loaded, path, &problem, error);
 }
 
 mgt_io_status mgt_scene_file_parse(mgt_scene_file **file, const char *text, size_t length, const char *name, const char *const *changes, size_t change_count,
@@ -57,7 +61,10 @@ mgt_io_status mgt_scene_file_parse(mgt_scene_file **file, const char *text, size
     scene_error problem = {0};
     if (!begin(file, text, name, changes, change_count))
         return missing_argument(error);
-    return finish(file, scene_file_parse(text, length, name, changes, change_count, &problem), name, &problem, error);
+    const plain_numbers numbers = plain_numbers_begin();
+    scene_file *const loaded = scene_file_parse(text, length, name, changes, change_count, &problem);
+    plain_numbers_end(numbers);
+    return finish(file, loaded, name, &problem, error);
 }
 
 mgt_io_status mgt_scene_file_sea(mgt_scene_file **file, const char *words, const char *const *changes, size_t change_count, mgt_io_error *error)
@@ -65,7 +72,10 @@ mgt_io_status mgt_scene_file_sea(mgt_scene_file **file, const char *words, const
     scene_error problem = {0};
     if (!begin(file, words, words, changes, change_count))
         return missing_argument(error);
-    return finish(file, scene_file_sea(words, changes, change_count, &problem), NULL, &problem, error);
+    const plain_numbers numbers = plain_numbers_begin();
+    scene_file *const loaded = scene_file_sea(words, changes, change_count, &problem);
+    plain_numbers_end(numbers);
+    return finish(file, loaded, NULL, &problem, error);
 }
 
 void mgt_scene_file_free(mgt_scene_file *file)

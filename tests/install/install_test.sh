@@ -68,26 +68,33 @@ LD_LIBRARY_PATH=$folder "$work/by_pkgconfig" "$work/a.ppm"
 
 # The library of files, linked by its own module alone.
 cat >"$work/files.c" <<'END'
+#include <locale.h>
 #include <mangata/io.h>
 #include <mangata/mangata.h>
 #include <string.h>
 
 int main(int count, char **words)
 {
+    const char *changes[] = {"water.level=0.25"};
     mgt_scene_file *file = NULL;
     mgt_scene scene;
     mgt_context *context = NULL;
-    if (count != 2 || strcmp(mgt_io_version(), mgt_version()) != 0 || mgt_scene_file_load(&file, words[1], NULL, 0, NULL) != MGT_IO_OK)
+    setlocale(LC_ALL, "");
+    if (count != 3 || strcmp(mgt_io_version(), mgt_version()) != 0 || mgt_scene_file_load(&file, words[1], changes, 1, NULL) != MGT_IO_OK)
         return 1;
     const bool good = mgt_scene_file_frame(file, 0, &scene, sizeof scene) == MGT_IO_OK && mgt_context_create(&context, NULL) == MGT_OK &&
-                      mgt_scene_check(context, &scene) == MGT_OK;
+                      mgt_scene_check(context, &scene) == MGT_OK && scene.water.level == 0.25 && localeconv()->decimal_point[0] == *words[2];
     mgt_context_destroy(context);
     mgt_scene_file_free(file);
     return !good;
 }
 END
 "$cc" -std=c17 -Wall -Wextra -Werror "${flags[@]}" "$work/files.c" $(pkg-config --cflags --libs mangata-io) -o "$work/files"
-LD_LIBRARY_PATH=$folder "$work/files" "$source/scenes/simple.json" || die "a program of libmangata-io, by pkg-config"
+LD_LIBRARY_PATH=$folder "$work/files" "$source/scenes/simple.json" . || die "a program of libmangata-io, by pkg-config"
+# The same in a locale with a decimal comma.
+printf '%s\n' 'comment_char %' 'escape_char /' LC_NUMERIC 'decimal_point ","' 'thousands_sep "."' 'grouping 3;3' 'END LC_NUMERIC' >"$work/comma"
+localedef -c -i "$work/comma" "$work/xx_XX" >/dev/null 2>&1 || true # it warns of what is left out
+LC_ALL=xx_XX LOCPATH=$work LD_LIBRARY_PATH=$folder "$work/files" "$source/scenes/simple.json" , || die "a program with a decimal comma reads another scene"
 [[ $(pkg-config --modversion mangata-io) == $(pkg-config --modversion mangata) ]] || die "versions of the modules differ"
 
 # The static one, which has no other global symbol than the public interface either.
