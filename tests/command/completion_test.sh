@@ -5,7 +5,8 @@
 python=/usr/bin/python3
 [[ -x $python ]] || python=python3
 command -v "$python" >/dev/null || { echo "not tested: no python3"; exit 77; }
-timeout 60 "$python" "$SOURCE/scripts/man_pages" "$MANGATA" made || fail "scripts/man_pages"
+# In whatever locale a build runs.
+LC_ALL=C PYTHONUTF8=0 PYTHONCOERCECLOCALE=0 timeout 60 "$python" "$SOURCE/scripts/man_pages" "$MANGATA" made || fail "scripts/man_pages"
 
 verbs=$("$MANGATA" --help | sed -n '/^verbs:/,/^options:/s/^  \([a-z]*\)  *.*/\1/p')
 for verb in $verbs; do
