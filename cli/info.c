@@ -96,6 +96,16 @@ static json_t *list_gl_devices(void)
     return list;
 }
 
+/* Those of this build: without OpenGL it has no shaders either. */
+static json_t *list_backends(void)
+{
+    json_t *list = json_pack("[s]", mgt_backend_name(MGT_BACKEND_CPU));
+    if (mgt_gl_source_name(0))
+        json_array_append_new(list, json_string(mgt_backend_name(MGT_BACKEND_GL)));
+    json_array_append_new(list, json_string(mgt_backend_name(MGT_BACKEND_NULL)));
+    return list;
+}
+
 static json_t *collect(const mgt_context_info *info)
 {
     int major = 0, minor = 0, patch = 0;
@@ -104,11 +114,11 @@ static json_t *collect(const mgt_context_info *info)
     exr_get_library_version(&major, &minor, &patch, &extra);
     snprintf(exr, sizeof exr, "%d.%d.%d", major, minor, patch);
     find_ffmpeg(ffmpeg, sizeof ffmpeg);
-    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s,s,s], s:[s,s,s], s:o, s:o}", "version", mgt_version(),
+    return json_pack("{s:s, s:s, s:{s:s, s:s, s:i, s:i}, s:o, s:{s:s, s:s, s:s, s:s, s:s*}, s:[s,s,s,s,s,s,s], s:o, s:o, s:o}", "version", mgt_version(),
                      "compiler", COMPILER, "default", "backend", mgt_backend_name(info->backend), "isa", mgt_isa_name(info->isa), "lanes", (int)info->lanes,
                      "threads", (int)info->threads, "instruction_sets", list_isas(), "libraries", "libfyaml", fy_library_version(), "libspng",
                      spng_version_string(), "openexr", exr, "jansson", jansson_version_str(), "ffmpeg", ffmpeg[0] ? ffmpeg : NULL, "formats", "png", "exr",
-                     "pfm", "sums", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", ffmpeg[0] ? "mov" : "mov (needs ffmpeg)", "backends", "cpu", "gl", "null",
+                     "pfm", "sums", "y4m", ffmpeg[0] ? "mp4" : "mp4 (needs ffmpeg)", ffmpeg[0] ? "mov" : "mov (needs ffmpeg)", "backends", list_backends(),
                      "gl_devices", list_gl_devices(), "methods", list_methods());
 }
 
