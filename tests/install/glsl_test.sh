@@ -24,15 +24,16 @@ done
 diff <(sed -n '/^```glsl$/,/^```$/p' "$source/docs/glsl.md" | sed '1d;$d') "$source/examples/glsl_coverage.frag" ||
     die "docs/glsl.md shows another shader"
 
-# CMake's users find the same folder.
+# CMake's users find the same folder, also through a link, such as /lib to /usr/lib.
 mkdir "$work/user"
+ln -s "$(dirname "$PKG_CONFIG_PATH")" "$work/lib"
 cat >"$work/user/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.20)
 project(user C)
 find_package(mangata REQUIRED)
 file(WRITE glsl_dir "${mangata_GLSL_DIR}")
 END
-"$cmake" -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_C_COMPILER="$cc" >"$work/user.log" 2>&1 ||
+"$cmake" -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$work" -DCMAKE_C_COMPILER="$cc" >"$work/user.log" 2>&1 ||
     die "$(cat "$work/user.log")"
 [[ $(cat "$work/user/glsl_dir") -ef $glsl ]] || die "mangata_GLSL_DIR is '$(cat "$work/user/glsl_dir")'"
 
