@@ -106,7 +106,8 @@ exists '100%.png'
 expect 0 '^mangata: warning: .*simple.json: the film ends with frame 59 \(time.frames is 60\), and --frames goes on to 61' \
     render "$simple" -o 'late_%d.png' --frames 58-61 "${small[@]}" "${null[@]}"
 (($(grep -c warning stderr.txt) == 1)) || fail "the end is told $(grep -c warning stderr.txt) times"
-for words in "$simple --frames 58-59" "$simple --frames 61 --quiet" "$simple --frames 7 --set time.frames=1" "--sea wind=5 --frames 99"; do
+cp "$simple" film.json
+for words in "film.json --frames 58-59" "film.json --frames 61 --quiet" "film.json --frames 7 --set time.frames=1" "--sea wind=5 --frames 99"; do
     expect 0 '' render $words -o 'early_%d.png' "${small[@]}" "${null[@]}"
     ! grep warning stderr.txt || fail "$words warns"
 done

@@ -15,7 +15,8 @@ for wrong in "" "boat.ppm" "--size 0x9 b_#.ppm" "--size nine b_#.ppm" "--frames 
     "$buoyancy" $wrong 2>message && code=0 || code=$?
     ((code == 64)) && grep -q '^usage:' message || die "'$wrong' ends with $code: $(cat message)"
 done
-for wrong in "--mesh none.ply b_#.ppm" "--mesh $source/README.md b_#.ppm" "--mesh $source/scenes/models/hull.ply no/such/folder_#.ppm"; do
+cp "$source/README.md" "$source/scenes/models/hull.ply" .
+for wrong in "--mesh none.ply b_#.ppm" "--mesh README.md b_#.ppm" "--mesh hull.ply no/such/folder_#.ppm"; do
     "$buoyancy" --size 16x9 --frames 1 $wrong >/dev/null 2>message && code=0 || code=$?
     ((code == 1)) && (($(wc -l <message) == 1)) || die "'$wrong' ends with $code: $(cat message)"
 done

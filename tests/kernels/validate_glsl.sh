@@ -12,18 +12,21 @@ mkdir "$work/whole" || exit 1
 failed=0
 
 check() { # name, version line, extension, epilogue, kernel
-    more=
-    case $1 in
-    lean | leadr) more=$kernels/baselines/lean_accessors_glsl.k ;;
-    fxaa) more=$work/luma.glsl ;;
-    slots) more=$kernels/common/math.k ;;
-    rounds) more=$source/src/gl/shaders/word64.glsl ;;
-    refract_*) more=$kernels/refraction/refract_accessors_glsl.k ;;
-    again | caustic | footprint | material | narrow | shadow | shown | spread | surfaces | texture | water_path | water_seen) more="$kernels/refraction/refract_accessors_glsl.k $kernels/refraction/narrow_types.k $kernels/refraction/shade_types.k $kernels/refraction/layer.k $work/object_accessors.glsl" ;;
+    whole=$work/whole/$1.$3
+    version=$2
+    epilogue=$4
+    kernel=$5
+    case $1 in # what it needs beside what all need
+    lean | leadr) set -- "$kernels/baselines/lean_accessors_glsl.k" ;;
+    fxaa) set -- "$work/luma.glsl" ;;
+    slots) set -- "$kernels/common/math.k" ;;
+    rounds) set -- "$source/src/gl/shaders/word64.glsl" ;;
+    refract_*) set -- "$kernels/refraction/refract_accessors_glsl.k" ;;
+    again | caustic | footprint | material | narrow | shadow | shown | spread | surfaces | texture | water_path | water_seen) set -- "$kernels/refraction/refract_accessors_glsl.k" "$kernels/refraction/narrow_types.k" "$kernels/refraction/shade_types.k" "$kernels/refraction/layer.k" "$work/object_accessors.glsl" ;;
+    *) set -- ;;
     esac
-    # shellcheck disable=SC2086 # nothing where there is none
-    "$source/scripts/kernel_glsl" "$2" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" $more "$5" >"$work/whole/$1.$3" || failed=1
-    printf '%s\n' "$4" >>"$work/whole/$1.$3"
+    "$source/scripts/kernel_glsl" "$version" "$kernels/common/prelude_glsl.k" "$kernels/waves/sines_types.k" "$kernels/common/accessors_glsl.k" "$kernels/waves/foam_accessors_glsl.k" "$@" "$kernel" >"$whole" || failed=1
+    printf '%s\n' "$epilogue" >>"$whole"
 }
 
 # For the validator alone: what the kernels of objects read, wherever a shader may keep it.
