@@ -47,8 +47,9 @@ static int check_layers(render_request *r)
         return EXIT_CODE_OK;
     if (r->layer_count > 1)
         return console_error(EXIT_CODE_USAGE, "%s: only .exr holds several layers; ask for one --layer", r->output);
-    if (r->layers[0] == MGT_LAYER_DEPTH && r->format != PICTURE_PFM)
-        return console_error(EXIT_CODE_USAGE, "%s: depth does not fit into 8 bits; write .exr or .pfm", r->output);
+    /* Metres, and radiance that no exposure and tone map has been chosen for. */
+    if ((r->layers[0] == MGT_LAYER_DEPTH || r->layers[0] == MGT_LAYER_REFRACTION) && r->format != PICTURE_PFM)
+        return console_error(EXIT_CODE_USAGE, "%s: %s does not fit into 8 bits; write .exr or .pfm", r->output, mgt_layer_name(r->layers[0]));
     return EXIT_CODE_OK;
 }
 

@@ -151,6 +151,9 @@ for folder in %04d a####b; do
 done
 expect 64 'only one frame number' render "$simple" -o 'a##_##.png'
 expect 64 'depth does not fit into 8 bits; write .exr or .pfm' render "$simple" -o a.png --layer depth
+for name in a.png a.y4m; do
+    expect 64 "$name: refraction does not fit into 8 bits; write .exr or .pfm" render "$simple" -o $name --layer refraction
+done
 expect 64 'only .exr holds several layers' render "$simple" -o a.pfm --layer mask --layer depth
 expect 64 'only .exr holds several layers' render "$simple" -o a.png --layer all
 
