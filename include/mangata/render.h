@@ -103,15 +103,15 @@ typedef enum mgt_layer {
     MGT_LAYER_COLOR = 0, /* 3 channels: radiance in kcd/m², or displayed colour in 8-bit formats */
     MGT_LAYER_COVERAGE,  /* 1: fraction of pixel area × shutter time whose mirrored ray meets the light, [0, 1]: Podee et al. 2021,
                             Eq. 17, over the light's radiance */
-    MGT_LAYER_MASK,      /* 1: fraction of the pixel that is water */
-    MGT_LAYER_DEPTH,     /* 1: metres along the ray to the first hit at time t; +inf where there is no water */
-    MGT_LAYER_NORMAL,    /* 3: world space unit normal, the mean shading normal at time t; (0,0,0) where no water */
+    MGT_LAYER_MASK,      /* 1: fraction of the pixel that is the water's surface */
+    MGT_LAYER_DEPTH,     /* 1: metres along the ray at time t to the water, or to an object before it; +inf where there is neither */
+    MGT_LAYER_NORMAL,    /* 3: world space unit normal of the same: the water's mean shading normal, upwards; (0,0,0) where there is neither */
     /* What a method spent and why. */
     MGT_LAYER_SAMPLES,    /* 1: samples of the pixel; for adaptive evaluations of all waves (see mgt_quality.samples) */
     MGT_LAYER_IMPORTANCE, /* 1: adaptive: what decides where samples go, from the analytic picture. Cells: predicted error of its coverage; podee:
                              Eq. 1 where it is above the threshold. Others: 0 */
     MGT_LAYER_DETAIL,     /* 1: adaptive: coverage of the added samples alone, 0 where there are none. Others: 0 */
-    /* Only scenes with objects have the next two layers; elsewhere they are 0. Textures and views of OpenGL do not take them. */
+    /* Scenes with objects, and cameras under water, have the next two layers; elsewhere they are 0. Textures and views of OpenGL do not take them. */
     MGT_LAYER_REFRACTION,       /* 3: radiance that arrives through the water's surface, before the Fresnel transmittance is applied; 0 where no water */
     MGT_LAYER_REFRACTION_ERROR, /* 1: estimated distance, in pixels, from what is shown to what the refracted ray meets; +inf where it is unknown */
     /* All scenes; textures of OpenGL take it, too. */

@@ -243,7 +243,8 @@ def render(
              options
     layers   names, or a single one: "color" float32 (h, w, 3), radiance in kcd/m², linear sRGB; "display" uint8 (h, w, 4), what a screen shows;
              "normal", "refraction" float32 (h, w, 3);
-             "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray, inf where no water; "samples", …
+             "coverage", "mask", "foam" float32 (h, w), fractions of the pixel; "depth" float32 (h, w), metres along the ray to the water or to an object
+             before it, else inf; "samples", …
     frame    from 0; its time is start + frame / fps
     size     (width, height) in pixels; crop: (x, y, width, height) of it
     changes  values of the scene: {"light.elevation_deg": 6}
