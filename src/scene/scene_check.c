@@ -26,6 +26,9 @@ static const tree_node *overridden(const tree_node *node)
     return NULL;
 }
 
+/* Whether --set has written the whole value. */
+static bool is_set(const tree_node *node) { return node->key_source != NULL || node->source != NULL; }
+
 static bool check_image(const scene_tree *tree, const mgt_image *image, scene_error *error)
 {
     double pixels = (double)image->width * image->height;
@@ -75,9 +78,14 @@ static bool check_keyframes(const scene_tree *tree, const scene_camera *camera, 
     const tree_node *mapping = tree_get(tree->root, "camera");
     for (size_t i = 0; i < 2; i++) {
         const tree_node *node = tree_get(mapping, excluded[i]);
+        if (node != NULL && !is_set(node) && is_set(path))
+            return tree_error(tree, path->key_source != NULL ? path->key_source : path->source, path->key_place, error,
+                              "camera.path stands beside camera.%s of the scene, which it replaces; allowed: one of them (--set 'camera={path: [...]}')",
+                              excluded[i]);
         if (node != NULL)
             return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
-                              "camera.%s stands beside camera.path, which replaces it; allowed: one of them", excluded[i]);
+                              "camera.%s stands beside camera.path, which replaces it; allowed: one of them%s", excluded[i],
+                              is_set(node) ? " (--set camera.path=[])" : "");
     }
     const scene_keyframe *keyframes = camera->path.items;
     const tree_node *before = NULL; /* time of the keyframe before */
@@ -145,11 +153,12 @@ static bool check_foam(const scene_tree *tree, const scene_water *water, scene_e
 static bool check_exposure(const scene_tree *tree, const scene_values *values, scene_error *error)
 {
     const tree_node *post = tree_get(tree->root, "post"), *offset = tree_get(post, "exposure_offset"), *exposure = tree_get(post, "exposure");
-    if (values->post.exposure.automatic || offset == NULL)
+    if (values->post.exposure.automatic || offset == NULL || values->post.exposure_offset == 0)
         return true;
     const tree_node *node = overridden(offset) == NULL && overridden(exposure) != NULL ? exposure : offset;
     return tree_error(tree, node->key_source != NULL ? node->key_source : node->source, node->key_place, error,
-                      "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto");
+                      "post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto%s",
+                      node == exposure ? " (--set post.exposure_offset=0)" : "");
 }
 
 /* The number stands once: in the method's name or beside it. Where --set has changed the number beside the name, that one counts. */

@@ -246,6 +246,17 @@ static void override_messages_name_the_option(void **state)
     static const char text[] = "mangata: 1\nlight: {body: sun}\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1}]}\n";
     assert_error(refused("mangata: 1\nquality: {method: ssaa, spatial: 3}\n", "quality.method=ssaa4"), SCENE_ERROR_BAD_SCENE,
                  "--set quality.method=ssaa4: " NUMBER_TWICE);
+    /* Values of the file that one of --set excludes: the message says how they go. */
+    assert_error(refused("mangata: 1\npost: {exposure_offset: -0.5}\n", "post.exposure=3"), SCENE_ERROR_BAD_SCENE,
+                 "--set post.exposure=3: post.exposure_offset stands beside an exposure that is a number; allowed: only with exposure: auto "
+                 "(--set post.exposure_offset=0)");
+    assert_error(refused("mangata: 1\ncamera: {path: [{time: 1, position: [0, 5, 0], target: [0, 0, -9]}]}\n", "camera.position=[0, 5, 0]"),
+                 SCENE_ERROR_BAD_SCENE,
+                 "--set camera.position=[0, 5, 0]: camera.position stands beside camera.path, which replaces it; allowed: one of them (--set camera.path=[])");
+    assert_error(refused("mangata: 1\ncamera: {target: [0, 3, -9]}\n", "camera.path=[{time: 1, position: [0, 5, 0], target: [0, 0, -9]}]"),
+                 SCENE_ERROR_BAD_SCENE,
+                 "--set camera.path=[{time: 1, position: [0, 5, 0], target: [0, 0, -...: camera.path stands beside camera.target of the scene, "
+                 "which it replaces; allowed: one of them (--set 'camera={path: [...]}')");
     for (size_t i = 0; i < COUNT(cases); i++) {
         char expected[512];
         snprintf(expected, sizeof expected, "--set %s: %s", cases[i].override, cases[i].message);

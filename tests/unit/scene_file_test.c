@@ -171,6 +171,7 @@ static void unusual_scenes_are_legal(void **state)
         "mangata: 1\ndescription: |\n  Several lines:\n  {of: text}\n",
         "mangata: 1\nimage: {width: 16384, height: 16384}",
         "mangata: 1\npost: {exposure: auto, exposure_offset: 1.5}",
+        "mangata: 1\npost: {exposure: 2, exposure_offset: 0}",
         "mangata: 1\ncamera: {position: [0, 9, 0], target: [0, 0, 0], up: [0, 0, -1]}",
     };
     for (size_t i = 0; i < COUNT(texts); i++) {
