@@ -102,6 +102,7 @@ static int run_with_room(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    console_begin();
     interrupt_while_reading();
     return console_finish(run_with_room(argc, argv));
 }

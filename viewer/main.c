@@ -318,6 +318,7 @@ static int run(const view_request *request)
 
 int main(int argc, char **argv)
 {
+    console_begin();
     view_request request;
     int code = view_request_read(&request, argc - 1, argv + 1);
     if (code == EXIT_CODE_OK) {

@@ -3,12 +3,24 @@
 #include "cli/common/console.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "scene/scene_text.h"
+
+void console_begin(void)
+{
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
+        if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) {
+            /* The lowest free number is this one. Where there is no /dev/null it stays closed. */
+            const int opened = open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+            (void)opened;
+        }
+}
 
 /* Prints a message as one line without characters that control a terminal, because names of files may contain anything. */
 static void print_line(const char *prefix, const char *format, va_list arguments)

@@ -55,6 +55,10 @@ json_t *console_json_text(const char *text);
 /* Writes `value` to stdout and releases it. Returns an exit code. `value` may be NULL if memory has run out, which is then printed as an error. */
 int console_print_json(json_t *value);
 
+/* To be called before anything else. Standard streams that the parent has closed are opened on /dev/null, so that no file of this process takes their numbers
+ * and messages and pictures do not mix. Reading and writing them still fails, as with a closed one. */
+void console_begin(void);
+
 /* Flushes stdout at the end of the program. Returns `code`. If writing has failed, it prints that and returns EXIT_CODE_CANNOT_WRITE instead of
  * EXIT_CODE_OK. */
 int console_finish(int code);

@@ -21,6 +21,12 @@ else
     echo "NOTICE: no /dev/full here; a full standard output was not tested"
 fi
 
+# Standard streams that the parent has closed: no message goes into the file that would have taken the stream's number.
+works render "$simple" -o open.y4m "${small[@]}" "${null[@]}" --frames 0-1 --quiet
+"$MANGATA" render "$simple" -o closed.y4m "${small[@]}" "${null[@]}" --frames 0-1 --progress json >&- 2>&- || fail "closed streams: exit code $?"
+same closed.y4m open.y4m
+expect 73 'standard output' bash -c '"$MANGATA" info >&-'
+
 mkdir small readonly
 if ! unshare -rm true 2>/dev/null; then
     echo "NOTICE: no mount namespaces here; full and read-only disks were not tested"
