@@ -40,6 +40,13 @@ static bool refuse(model_fault *fault, const char *path, const char *what)
 
 /* ---- what the other process wrote --------------------------------------------------------------------------------- */
 
+/* A picture of the file. Each material has its own, though they are often the same. */
+typedef struct read_picture {
+    const wire_picture *wire; /* with its bytes behind */
+    mgt_texture *texture;     /* the model's; NULL: not made yet */
+    uint64_t hash;            /* the texture's */
+} read_picture;
+
 typedef struct model_reader {
     const char *at, *end; /* of the records */
     wire_header header;
@@ -49,7 +56,7 @@ typedef struct model_reader {
     mesh_format format;
     scene_model *model;
     model_fault *fault;
-    const wire_picture **pictures; /* each with its bytes behind */
+    read_picture *pictures;
     mgt_material *materials;
     struct read_mesh *meshes; /* each of the file's */
     size_t part_room;
@@ -83,8 +90,8 @@ static bool take_pictures(model_reader *r)
     if (r->pictures == NULL)
         return model_fault_memory(r->fault);
     for (uint32_t i = 0; i < r->header.picture_count; i++) {
-        r->pictures[i] = take(r, sizeof(wire_picture));
-        if (r->pictures[i] == NULL || take(r, r->pictures[i]->length) == NULL)
+        const wire_picture *wire = r->pictures[i].wire = take(r, sizeof *wire);
+        if (wire == NULL || take(r, wire->length) == NULL)
             return false;
     }
     return true;
@@ -94,21 +101,23 @@ static bool take_pictures(model_reader *r)
 
 static float within(float value, float low, float high) { return value >= low ? value <= high ? value : high : low; }
 
-/* Inside the file, or a picture beside it. NULL with the fault filled. */
-static const mgt_texture *read_texture(model_reader *r, const wire_picture *picture)
+static bool same_picture(const wire_picture *a, const wire_picture *b)
 {
+    return a->kind == b->kind && a->length == b->length && memcmp(a + 1, b + 1, a->length) == 0;
+}
+
+/* Inside the file, or a picture beside it. */
+static bool load_picture(model_reader *r, read_picture *read)
+{
+    const wire_picture *picture = read->wire;
     const char *bytes = (const char *)(picture + 1);
     scene_model *model = r->model;
-    uint64_t hash = 0;
-    mgt_texture *texture = NULL;
     mgt_texture **textures = realloc(model->textures, (model->texture_count + 1) * sizeof(mgt_texture *));
-    if (textures == NULL) {
-        model_fault_memory(r->fault);
-        return NULL;
-    }
+    if (textures == NULL)
+        return model_fault_memory(r->fault);
     model->textures = textures;
     if (picture->kind == WIRE_PICTURE_INSIDE) {
-        texture = texture_parse(bytes, picture->length, r->path, r->pixels, &hash, r->fault);
+        read->texture = texture_parse(bytes, picture->length, r->path, r->pixels, &read->hash, r->fault);
     } else if (picture->kind == WIRE_PICTURE_RAW) {
         refuse(r->fault, r->path, "holds a picture that is not compressed");
     } else {
@@ -118,20 +127,31 @@ static const mgt_texture *read_texture(model_reader *r, const wire_picture *pict
             if (*at == '\\')
                 *at = '/';
         if (path != NULL)
-            texture = texture_load(path, r->pixels, &hash, r->fault);
+            read->texture = texture_load(path, r->pixels, &read->hash, r->fault);
         else
             model_fault_memory(r->fault);
         free(path);
         free(name);
     }
-    if (texture == NULL) {
+    if (read->texture == NULL) {
         const size_t used = strlen(r->fault->text);
         snprintf(r->fault->text + used, sizeof r->fault->text - used, ", or a material in the scene");
-        return NULL;
+        return false;
     }
-    model->textures[model->texture_count++] = texture;
-    model->hash = model_hash(model->hash, &hash, sizeof hash);
-    return texture;
+    model->textures[model->texture_count++] = read->texture;
+    return true;
+}
+
+/* One texture for all pictures that are the same. NULL with the fault filled. */
+static const mgt_texture *read_texture(model_reader *r, uint32_t index)
+{
+    read_picture *read = r->pictures;
+    while (read < &r->pictures[index] && (read->texture == NULL || !same_picture(read->wire, r->pictures[index].wire)))
+        read++;
+    if (read->texture == NULL && !load_picture(r, read))
+        return NULL;
+    r->model->hash = model_hash(r->model->hash, &read->hash, sizeof read->hash);
+    return read->texture;
 }
 
 static bool read_material(model_reader *r, const wire_material *m, mgt_material *out)
@@ -149,7 +169,7 @@ static bool read_material(model_reader *r, const wire_material *m, mgt_material 
         return true;
     if (m->picture >= r->header.picture_count)
         return refuse(r->fault, r->path, "mangata-import names a picture that does not exist");
-    out->texture = read_texture(r, r->pictures[m->picture]);
+    out->texture = read_texture(r, m->picture);
     return out->texture != NULL;
 }
 

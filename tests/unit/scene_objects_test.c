@@ -216,6 +216,28 @@ static void meshes_of_every_format(void **state)
     scene_file_free(file);
 }
 
+/* A picture that two materials name is one texture. */
+static void materials_of_a_file_share_a_picture(void **state)
+{
+    const test_folder *folder = *state;
+    put(folder, "two.obj",
+        "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 2/2\nusemtl c\nf 3/1 2/2 1/3\n");
+    put(folder, "two.mtl", "newmtl a\nKd 1 0 0\nmap_Kd dots.png\nnewmtl b\nKd 0 1 0\nmap_Kd red.jpg\nnewmtl c\nKd 0 0 1\nmap_Kd dots.png\n");
+    scene_file *file = load(folder, "  - mesh: two.obj\n");
+    const mgt_scene scene = scene_of(file);
+    assert_int_equal(scene.object_count, 3);
+    const mgt_texture *of_color[3] = {NULL};
+    for (size_t i = 0; i < 3; i++)
+        for (size_t c = 0; c < 3; c++)
+            if (scene.objects[i].material.base_color[c] == 1)
+                of_color[c] = scene.objects[i].material.texture;
+    assert_non_null(of_color[0]);
+    assert_non_null(of_color[1]);
+    assert_ptr_equal(of_color[0], of_color[2]);
+    assert_ptr_not_equal(of_color[0], of_color[1]);
+    scene_file_free(file);
+}
+
 /* nodes_gltf with the scale of its second node replaced. */
 static void put_scaled(const test_folder *folder, const char *name, const char *scale)
 {
@@ -515,6 +537,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(places_are_scaled_turned_and_moved, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(materials_are_read, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(meshes_of_every_format, files_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(materials_of_a_file_share_a_picture, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_node_scaled_to_nothing_hides_its_meshes, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(fetched_models, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(the_render_hash_knows_what_files_hold, files_setup, folder_teardown),
