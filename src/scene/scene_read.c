@@ -55,7 +55,7 @@ static size_t key_distance(const char *key, const char *known)
 
 /* The known keys of one table, and the one nearest to a key. */
 typedef struct known_keys {
-    char list[320], hint[64];
+    char list[480], hint[64];
     size_t used, nearest;
 } known_keys;
 

@@ -78,6 +78,11 @@ static void messages_say_what_where_and_what_is_allowed(void **state)
         {"mangata: 1\nlight: {elevation: 3}\n",
          "s.yaml:2:9: unknown key \"elevation\" in light; did you mean \"elevation_deg\"? allowed: body, elevation_deg, azimuth_deg, "
          "angular_radius_deg, radiance"},
+        {"mangata: 1\nquality: {wibble: 3}\n",
+         "s.yaml:2:11: unknown key \"wibble\" in quality; allowed: method, spatial, time_samples, sample_first, sample_count, seed, ndf_mean, "
+         "kernels, elongation, path_segments, transition, transition_width, adaptive, samples, target_rmse, target_displayed, budget_ms, "
+         "importance_center, importance_width, importance_threshold, slots, refraction, tess_error, refraction_samples, caustics, roughness_floor, "
+         "light_cells"},
         {"mangata: 1\nwater: {waves: [{amplitude: 1, a: 1, b: 1, c: 1, wibble: 2}]}\n",
          "s.yaml:2:50: unknown key \"wibble\" in water.waves[0]; allowed: amplitude, a, b, c, phase; or wavelength, direction_deg, height, phase"},
         {"mangata: 1\nwater: {waves: [{wavelenght: 4, height: 1}]}\n",
