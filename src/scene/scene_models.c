@@ -384,8 +384,11 @@ static bool is_label(const scene_models *m, const char *text)
 static void describe(const scene_object *object, char text[64])
 {
     const char *slash = object->mesh != NULL ? strrchr(object->mesh, '/') : NULL, *stem = slash != NULL ? slash + 1 : object->mesh;
-    const int length = stem != NULL && object->shape == SHAPE_MESH ? (int)strcspn(stem, ".") : 0;
-    snprintf(text, 64, "%.*s", length > 0 ? length : 40, length > 0 ? stem : scene_shape_names[object->shape]);
+    size_t length = stem != NULL && object->shape == SHAPE_MESH ? strcspn(stem, ".") : 0;
+    if (length > 63)
+        for (length = 63; length > 0 && ((unsigned char)stem[length] & 0xc0) == 0x80;)
+            length--; /* a whole character ends here */
+    snprintf(text, 64, "%.*s", length > 0 ? (int)length : 40, length > 0 ? stem : scene_shape_names[object->shape]);
 }
 
 /* Names the next place: NAME, then NAME/2, …. Objects of one name share their places' names; without one an object has a name of its own. */

@@ -238,6 +238,21 @@ static void materials_of_a_file_share_a_picture(void **state)
     scene_file_free(file);
 }
 
+/* An object without a name is called after its file: at most 63 bytes of whole characters. */
+static void long_names_of_files_end_with_a_whole_character(void **state)
+{
+    const test_folder *folder = *state;
+    char name[128] = "", objects[256];
+    for (int i = 0; i < 59; i++)
+        strcat(name, "n");
+    snprintf(objects, sizeof objects, "%s\u6d77\u6ce2.ply", name); /* the second character of three bytes crosses the end */
+    put(folder, objects, triangle_ply);
+    snprintf(objects, sizeof objects, "  - mesh: %s\u6d77\u6ce2.ply\n", name);
+    scene_file *file = load(folder, objects);
+    assert_string_equal(scene_file_object_name(file, 0), strcat(name, "\u6d77"));
+    scene_file_free(file);
+}
+
 /* nodes_gltf with the scale of its second node replaced. */
 static void put_scaled(const test_folder *folder, const char *name, const char *scale)
 {
@@ -538,6 +553,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(materials_are_read, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(meshes_of_every_format, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(materials_of_a_file_share_a_picture, files_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(long_names_of_files_end_with_a_whole_character, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_node_scaled_to_nothing_hides_its_meshes, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(fetched_models, files_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(the_render_hash_knows_what_files_hold, files_setup, folder_teardown),
