@@ -347,6 +347,8 @@ static int measure_frame(diff_request *r, uint64_t place, diff_frame *frame, flo
     return code;
 }
 
+static int stopped(void) { return console_error(interrupt_exit_code(), "stopped by a signal"); }
+
 static int measure(diff_request *r, image_metrics *metrics)
 {
     float_image previous[2] = {{0}};
@@ -354,7 +356,7 @@ static int measure(diff_request *r, image_metrics *metrics)
     const uint64_t count = frame_list_length(&r->frames);
     for (uint64_t i = 0; i < count && code == EXIT_CODE_OK; i++) {
         diff_frame frame = {.count = r->paths[2] ? 3 : 2};
-        code = *interrupt_flag() ? interrupt_exit_code() : measure_frame(r, i, &frame, previous, metrics);
+        code = *interrupt_flag() ? stopped() : measure_frame(r, i, &frame, previous, metrics);
         for (int k = 0; k < 2; k++) { /* the difference from the next frame needs these pictures */
             float_image_free(&previous[k]);
             previous[k] = frame.images[k];
@@ -364,7 +366,8 @@ static int measure(diff_request *r, image_metrics *metrics)
     }
     for (int k = 0; k < 2; k++)
         float_image_free(&previous[k]);
-    return code;
+    /* A terminal's signal has ended idiff too, so that the last frame may lack its score. */
+    return code == EXIT_CODE_OK && *interrupt_flag() ? stopped() : code;
 }
 
 /* A JSON number, or null for NaN and infinities, which JSON does not have. */
@@ -439,8 +442,8 @@ static int run(void *request)
     image_metrics metrics = {0};
     if ((code = check_request(r)) != EXIT_CODE_OK)
         return code;
-    if (r->maps.wanted)
-        interrupt_install(); /* so that no file is left incomplete */
+    if (r->maps.wanted || r->metrics.wanted.metrics & 1u << CLIP_YEE)
+        interrupt_install(); /* so that no file is left incomplete, nor idiff's temporary ones */
     if ((code = measure(r, &metrics)) != EXIT_CODE_OK)
         return code;
     warn_of_encoding(r);
@@ -502,7 +505,7 @@ static const option_table diff_table = {"diff",
                                         diff_options,
                                         sizeof diff_options / sizeof diff_options[0],
                                         .notes = "exit codes: 0 done, 1 sizes or channels differ, 2 above --max-rmse, 64 usage, 65 bad picture,\n"
-                                                 "66 no such picture, 73 cannot write",
+                                                 "66 no such picture, 73 cannot write, 129, 130 and 143 stopped by a signal",
                                         .operand = {.set = add_picture},
                                         .run = run};
 

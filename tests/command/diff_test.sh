@@ -164,6 +164,11 @@ if command -v idiff >/dev/null; then
     TMPDIR=$work/nowhere expect 0 '' "$MANGATA" diff scene.png scene.png --metrics yee --json
     [[ $(number unavailable.yee) == *nowhere* ]] || fail "no folder for Yee's test: $(cat stdout.txt)"
 fi
+# A signal while idiff works: no result, and its pictures are taken away.
+mkdir slow temporary && printf '#!/bin/sh\n>%s/began; sleep 0.3; echo; echo PASS\n' "$work/slow" >slow/idiff && chmod +x slow/idiff
+TMPDIR=$work/temporary PATH=$work/slow:$PATH signalled TERM '[[ -e slow/began ]]' "$MANGATA" diff scene.png scene.png --metrics yee
+result=$?
+((result == 143)) && [[ $(cat signalled.txt) == 'mangata: stopped by a signal' && -z $(ls -A temporary) ]] || fail "yee and a signal: $result: $(cat signalled.txt; ls -A temporary)"
 
 # Maps: the values themselves, and in colours from black to pale yellow; what exists stays.
 expect 0 '' "$MANGATA" diff a.pfm b.pfm --error-map rmse=error.pfm --error-map relrmse=relative.exr --error-map ssim=s.png --json
