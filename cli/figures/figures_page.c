@@ -83,7 +83,7 @@ static void put_command(figures_job *f, FILE *page)
         return;
     fputs("mangata figures", stream);
     for (int i = 0; i < f->request->argument_count; i++)
-        fprintf(stream, " %s", f->request->arguments[i]);
+        shell_word(stream, f->request->arguments[i]);
     if (fclose(stream) == 0)
         markup_escape(page, text);
     free(text);

@@ -130,7 +130,10 @@ mkdir own && echo mine >own/index.html
 expect 73 'own/index.html: exists already, and this command did not write it; --overwrite replaces it' figures -o own --only 21
 [[ $(cat own/index.html) == mine ]] || fail "own/index.html was touched"
 expect 0 '' figures -o own --only 21 --overwrite
-expect 0 '' figures -o own --only 21
+mv own 'own work'
+expect 0 '' figures -o 'own work' --only 21
+# The command on the page can be pasted into a shell.
+grep -q "<code>mangata figures .* -o 'own work' --only 21</code>" 'own work/index.html' || fail "the page's command: $(grep -o '<code>mangata[^<]*' 'own work/index.html')"
 echo file >taken
 expect 73 'taken: it is not a folder' figures -o taken --only 21
 expect 73 'cannot make this folder' figures -o no/such/place --only 21
