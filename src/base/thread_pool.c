@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/thread_start.h"
 
@@ -58,8 +59,12 @@ uint32_t thread_pool_usable_cpus(void)
 {
     uint32_t cpus = 1;
     cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
+    if (sched_getaffinity(0, sizeof set, &set) != 0) {
+        const long online = sysconf(_SC_NPROCESSORS_ONLN); /* a machine that may have more CPUs than a set holds */
+        cpus = online > 1 ? (uint32_t)online : 1;
+    } else if (CPU_COUNT(&set) > 0) {
         cpus = (uint32_t)CPU_COUNT(&set);
+    }
     const uint32_t quota = cgroup_cpus();
     return quota > 0 && quota < cpus ? quota : cpus;
 }
