@@ -162,7 +162,7 @@ file_status encoder_process_start(encoder_process **result, const encoder_desc *
     argument_list arguments = {0};
     char *program = find_program("ffmpeg");
     if (!program)
-        return file_error_set(error, FILE_UNAVAILABLE, "%s: ffmpeg, which writes .mp4, is not on the PATH; .y4m needs none", desc->path);
+        return file_error_set(error, FILE_UNAVAILABLE, "%s: ffmpeg, which writes .mp4 and .mov, is not on the PATH; .y4m needs none", desc->path);
     encoder_process *process = calloc(1, sizeof *process);
     if (!process) {
         status = file_error_errno(error, FILE_MEMORY, desc->path, NULL, ENOMEM);
