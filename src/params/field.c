@@ -4,6 +4,7 @@
  */
 #include "params/field.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,9 +70,22 @@ static bool is_decimal(const char *text)
     return digits && *end == '\0';
 }
 
+/* Reads a whole number without a sign: digits, 0x with hexadecimal ones or 0o with octal ones. False: it is none, or not below 2^64. */
+static bool read_whole(const char *text, uint64_t *value)
+{
+    const bool prefixed = text[0] == '0' && (text[1] == 'x' || text[1] == 'o');
+    const int base = !prefixed ? 10 : text[1] == 'x' ? 16 : 8;
+    const char *first = prefixed ? text + 2 : text;
+    if (!*first || first[strspn(first, base == 16 ? "0123456789abcdefABCDEF" : base == 8 ? "01234567" : "0123456789")] != '\0')
+        return false;
+    errno = 0;
+    *value = strtoull(first, NULL, base);
+    return errno == 0;
+}
+
 bool number_read(const char *text, double *value)
 {
-    const size_t length = strlen(text);
+    uint64_t whole;
     if (is_decimal(text)) {
         *value = strtod(text, NULL);
         return true;
@@ -80,11 +94,9 @@ bool number_read(const char *text, double *value)
         *value = NAN;
         return true;
     }
-    const bool hexadecimal = text[0] == '0' && text[1] == 'x', octal = text[0] == '0' && text[1] == 'o';
-    const char *digits = hexadecimal ? "0123456789abcdefABCDEF" : "01234567";
-    if ((!hexadecimal && !octal) || length < 3 || length > 18 || strspn(text + 2, digits) != length - 2)
+    if (!read_whole(text, &whole))
         return false;
-    *value = (double)strtoull(text + 2, NULL, hexadecimal ? 16 : 8);
+    *value = (double)whole;
     return true;
 }
 
@@ -144,17 +156,18 @@ void field_choose(const field_row *field, int place, void *value)
         *(int *)value = field->values ? field->values[place] : place;
 }
 
-/* Reads a whole number of up to 64 bits. A number of digits alone is not read as a double, which would round it. */
+/* Reads a whole number of up to 64 bits. Where it has neither fraction nor exponent it is not read as a double, which would round it. */
 static bool parse_large(const field_row *field, const char *text, uint64_t *value)
 {
     double number;
-    char *end;
     if (!number_read(text, &number) || !field_in_range(field, number))
         return false;
-    const bool exact = text[0] && text[strspn(text, "0123456789")] == 0;
-    *value = exact ? strtoull(text, &end, 10) : (uint64_t)number;
-    /* The nearest double to 2^64 - 1 is 2^64. */
-    return exact ? strlen(text) < 20 || (strlen(text) == 20 && strcmp(text, "18446744073709551615") <= 0) : number < 18446744073709551616.0;
+    if (read_whole(text, value))
+        return true;
+    if (!(number < 18446744073709551616.0)) /* 2^64, the nearest double to 2^64 - 1 */
+        return false;
+    *value = (uint64_t)number;
+    return true;
 }
 
 const char *name_first(const name_alias *aliases, const char *word)

@@ -257,6 +257,27 @@ static void methods_have_the_names_of_the_command(void **state)
     }
 }
 
+/* Seeds have all their 64 bits, however they are written. */
+static void large_numbers_are_not_rounded(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *override;
+        uint64_t seed;
+    } cases[] = {{"quality.seed=11400714819323198485", 0x9e3779b97f4a7c15},
+                 {"quality.seed=0x9E3779B97f4a7c15", 0x9e3779b97f4a7c15},
+                 {"quality.seed=0xffffffffffffffff", UINT64_MAX},
+                 {"quality.seed=0o1777777777777777777777", UINT64_MAX},
+                 {"quality.seed=0000000000000000000000007", 7},
+                 {"quality.seed=1e3", 1000}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        scene_file *file = parse("mangata: 1\n", &cases[i].override, 1);
+        if (frame_of(file, 0).quality.seed != cases[i].seed)
+            fail_msg("%s: %llu", cases[i].override, (unsigned long long)frame_of(file, 0).quality.seed);
+        scene_file_free(file);
+    }
+}
+
 static void camera_path_passes_its_keyframes(void **state)
 {
     (void)state;
@@ -486,6 +507,7 @@ int main(void)
         cmocka_unit_test(standard_scenes_load),
         cmocka_unit_test(unusual_scenes_are_legal),
         cmocka_unit_test(methods_have_the_names_of_the_command),
+        cmocka_unit_test(large_numbers_are_not_rounded),
         cmocka_unit_test(body_sets_the_defaults_of_the_light),
         cmocka_unit_test(overrides_replace_add_and_append),
         cmocka_unit_test(camera_path_passes_its_keyframes),
