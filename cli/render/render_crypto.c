@@ -29,29 +29,43 @@ static const char *const channel_names[CRYPTO_CHANNELS] = {LAYER "00.R", LAYER "
                                                            LAYER "01.B", LAYER "01.A", LAYER "02.R", LAYER "02.G", LAYER "02.B", LAYER "02.A"};
 _Static_assert((int)CRYPTO_CHANNELS == 2 * (int)OBJECT_RANKS, "a pair of channels for each rank");
 
+/* Finds names by their hashes. */
+typedef struct name_table {
+    uint32_t *places; /* 1 + the name's index; 0: the slot is free */
+    size_t slots;     /* a power of two, at least twice the number of names */
+} name_table;
+
 /* Index of a name, which is added if it is new. */
-static uint32_t take_name(render_crypto *c, const char *name)
+static uint32_t take_name(render_crypto *c, const name_table *table, const char *name)
 {
-    uint32_t i = 0;
-    while (i < c->name_count && strcmp(c->names[i], name) != 0)
-        i++;
-    if (i == c->name_count)
-        c->names[c->name_count++] = name;
-    return i;
+    size_t slot = cryptomatte_hash(name) & (table->slots - 1);
+    for (; table->places[slot]; slot = (slot + 1) & (table->slots - 1))
+        if (strcmp(c->names[table->places[slot] - 1], name) == 0)
+            return table->places[slot] - 1;
+    c->names[c->name_count++] = name;
+    table->places[slot] = (uint32_t)c->name_count;
+    return table->places[slot] - 1;
 }
 
 static bool take_names(render_crypto *c, const scene_file *file)
 {
     while (scene_file_object_name(file, c->object_count))
         c->object_count++;
+    name_table table = {.slots = 4};
+    while (table.slots < 2 * (c->object_count + 2))
+        table.slots *= 2;
+    table.places = calloc(table.slots, sizeof *table.places);
     c->labels = calloc(c->object_count + 1, sizeof *c->labels);
     c->names = calloc(c->object_count + 2, sizeof *c->names);
-    if (!c->labels || !c->names)
+    if (!table.places || !c->labels || !c->names) {
+        free(table.places);
         return false;
-    take_name(c, "sky");
-    take_name(c, "water");
+    }
+    take_name(c, &table, "sky");
+    take_name(c, &table, "water");
     for (size_t i = 0; i < c->object_count; i++)
-        c->labels[i] = take_name(c, scene_file_object_name(file, i));
+        c->labels[i] = take_name(c, &table, scene_file_object_name(file, i));
+    free(table.places);
     c->ids = calloc(c->name_count, sizeof *c->ids);
     for (size_t i = 0; c->ids && i < c->name_count; i++)
         c->ids[i] = cryptomatte_id(c->names[i]);
