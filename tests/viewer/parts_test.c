@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "params/waves.h"
+#include "scene/scene_path.h"
 #include "viewer/scene/camera_moves.h"
 #include "viewer/scene/history.h"
 #include "viewer/ui/controls.h"
@@ -291,6 +292,44 @@ static void a_saved_scene_is_whole_and_replaces_nothing(void **state)
     document_close(&d);
 }
 
+/* A file has no still camera beside a path, but the hand has a view. */
+static void a_view_beside_a_path_stays(void **state)
+{
+    static const char start[] = "mangata: 1\ntime: {start: 1}\ncamera:\n  path:\n    - {time: 0, position: [0, 3, 0], target: [0, 2, -4]}\n"
+                                "    - {time: 2, position: [2, 3, 0], target: [0, 2, -4]}\n";
+    const folder *f = *state;
+    char text[400];
+    write_file(f->scene, start);
+    document d = open_document(f);
+    const mgt_camera *view = &d.values.camera.still;
+    assert_true(view->position[0] == 1 && view->position[1] == 3 && view->target[2] == -4 && scene_camera_equal(view, &d.source->home));
+    /* Not moved, it stays at the path's start, wherever that is. */
+    snprintf(text, sizeof text, "%s    - {time: 3, position: [9, 5, 0], target: [0, 2, -4]}\n", start);
+    memcpy(strstr(text, "start: 1"), "start: 3", 8);
+    write_file(f->scene, text);
+    assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
+    assert_true(view->position[0] == 9 && d.source->home.position[0] == 9);
+    /* Moved, it stays where it is when the file changes. */
+    d.values.camera.still.position[0] = 5;
+    snprintf(text, sizeof text, "%slight: {elevation_deg: 12}\n", start);
+    write_file(f->scene, text);
+    assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
+    assert_true(d.values.light.elevation_deg == 12 && view->position[0] == 5);
+    document_close(&d);
+    /* So it does beside a path that is in the document alone, until the file's own camera changes. */
+    write_file(f->scene, scene_text);
+    d = open_document(f);
+    set(&d, "camera.path=[{time: 0, position: [0, 3, 0], target: [0, 2, -4]}]");
+    d.values.camera.still.position[0] = 5;
+    write_file(f->scene, "mangata: 1\ncamera: {position: [0, 3, 0], target: [0, 2, -4]}\n");
+    assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
+    assert_true(d.values.camera.path.count == 1 && d.values.water.waves.count == 0 && view->position[0] == 5);
+    write_file(f->scene, "mangata: 1\ncamera: {position: [0, 8, 0], target: [0, 2, -4]}\n");
+    assert_int_equal(document_poll(&d), DOCUMENT_READ_ANEW);
+    assert_true(d.values.camera.path.count == 1 && view->position[0] == 0 && view->position[1] == 8);
+    document_close(&d);
+}
+
 /* ---- controls ---- */
 
 static void every_control_reads_back_and_keeps_to_its_range(void **state)
@@ -541,6 +580,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(objects_are_built_anew, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_moved_keeps_its_mesh, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_saved_scene_is_whole_and_replaces_nothing, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(a_view_beside_a_path_stays, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_control_reads_back_and_keeps_to_its_range, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(every_value_of_the_scene_is_a_control, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(another_body_brings_its_own_light, make_folder, remove_folder),

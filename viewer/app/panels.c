@@ -333,12 +333,8 @@ static void draw_files(viewer *v)
     ui_item_width(-label_units * ui_font_size());
     ui_text_field("file##scene", v->save_name, sizeof v->save_name);
     ui_tooltip("A new file; comments of the old one are not carried over.");
-    if (ui_button("save scene", 0)) {
-        if (viewer_save_scene(v, v->save_name, error, sizeof error))
-            viewer_report(v, false, "saved %s", v->save_name);
-        else
-            viewer_report(v, true, "%s", error);
-    }
+    if (ui_button("save scene", 0) && !viewer_save_scene(v, v->save_name, error, sizeof error))
+        viewer_report(v, true, "%s", error);
     ui_same_line(0);
     if (ui_button("back to the file", 0))
         viewer_revert(v);

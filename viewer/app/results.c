@@ -183,5 +183,9 @@ bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_si
         good = false;
     }
     scene_values_free(&values);
+    if (good && v->document.values.camera.path.count > 0 && !viewer_follows_path(v))
+        viewer_report(v, false, "saved %s; its camera follows the path: the view in the window is not in it", path);
+    else if (good)
+        viewer_report(v, false, "saved %s", path);
     return good;
 }

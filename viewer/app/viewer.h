@@ -307,7 +307,8 @@ bool viewer_save_window(const viewer *v, const char *path, char *error, size_t e
 /* The window's pixels as RGBA, 4 bytes each, top row first. The caller frees them. NULL: out of memory. */
 uint8_t *viewer_read_window(const viewer *v, uint32_t *width, uint32_t *height);
 
-/* Writes the scene with its changes to a new file. False: `error` says why. */
+/* Writes the scene with its changes to a new file, and reports that. A scene with a path has no other camera, which the report says where the camera is off the
+ * path. False: `error` says why. */
 bool viewer_save_scene(viewer *v, const char *path, char *error, size_t error_size);
 
 /* Updates v->inspection to the pixel that the settings name, if it is out of date. */

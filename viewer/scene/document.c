@@ -12,11 +12,25 @@
 
 static bool values_of_words(const scene_values *base, const char *const *words, size_t count, scene_values *out, scene_error *error);
 
+/* The camera of values from a file when it does not follow their path. A file has a path or a still camera: beside a path it stands where the path is at the
+ * scene's start. */
+static mgt_camera still_camera(const scene_values *values)
+{
+    mgt_camera camera = values->camera.still;
+    if (values->camera.path.count == 0)
+        return camera;
+    const mgt_camera start = scene_camera_at(&values->camera, values->time.start);
+    memcpy(camera.position, start.position, sizeof camera.position);
+    memcpy(camera.target, start.target, sizeof camera.target);
+    return scene_camera_fault(&camera) == CAMERA_LEGAL ? camera : values->camera.still;
+}
+
 /* Copies the values of a file. Paths in them are made valid for other folders, because the scene may be saved in one. False: out of memory. */
 static bool copy_values(scene_values *out, const scene_file *file)
 {
     if (!scene_values_copy(out, scene_file_values(file)))
         return false;
+    out->camera.still = still_camera(out);
     if (scene_values_fix_files(out, scene_file_path(file)))
         return true;
     scene_values_free(out);
@@ -237,6 +251,21 @@ static size_t without_keys_of(const scene_overrides *words, const scene_override
     return count;
 }
 
+static bool same_view(const mgt_camera *a, const mgt_camera *b)
+{
+    return memcmp(a->position, b->position, sizeof a->position) == 0 && memcmp(a->target, b->target, sizeof a->target) == 0;
+}
+
+/* Keeps a view that the user has chosen beside a path, which no words of the format hold. A still camera of the file replaces it if that has changed. */
+static void keep_view(const scene_values *old, const scene_values *new, const scene_values *mine, scene_values *out)
+{
+    const mgt_camera *view = &mine->camera.still;
+    if (same_view(view, &old->camera.still) || (new->camera.path.count == 0 && !same_view(&old->camera.still, &new->camera.still)))
+        return;
+    memcpy(out->camera.still.position, view->position, sizeof view->position);
+    memcpy(out->camera.still.target, view->target, sizeof view->target);
+}
+
 /* The values of the new file with the changes that the user has made to the old one. Where both have changed a value, that of the file counts. False: out of
  * memory. */
 static bool merge(document *d, const scene_file *fresh, scene_values *out)
@@ -250,6 +279,8 @@ static bool merge(document *d, const scene_file *fresh, scene_values *out)
         words = calloc(mine.count + 1, sizeof *words);
     if (words)
         good = values_of_words(&new, words, without_keys_of(&mine, &theirs, words), out, NULL);
+    if (words && good)
+        keep_view(&old, &new, &d->values, out);
     /* If the user's changes do not fit the new file, they are dropped. */
     if (!words || !good)
         good = copy_values(out, fresh);
@@ -277,9 +308,9 @@ document_news document_poll(document *d)
         scene_error_memory(&source->error);
         return DOCUMENT_BROKEN;
     }
-    const mgt_camera *camera = &scene_file_values(fresh)->camera.still;
-    if (!scene_camera_equal(&scene_file_values(source->file)->camera.still, camera))
-        source->home = *camera;
+    const mgt_camera before = still_camera(scene_file_values(source->file)), camera = still_camera(scene_file_values(fresh));
+    if (!scene_camera_equal(&before, &camera))
+        source->home = camera;
     document_replace(d, &values);
     scene_file_free(source->file);
     source->file = fresh;
