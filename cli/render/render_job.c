@@ -88,6 +88,8 @@ static int load_scene(render_job *job)
     job->scene = scene_file_open(r->scene_path, r->changes.items, r->changes.count, &error);
     if (!job->scene)
         return console_scene_error(&error);
+    if (scene_file_warning(job->scene)[0])
+        console_note(&r->out, "mangata: warning: %s", scene_file_warning(job->scene));
     job->canonical = scene_file_canonical(job->scene, NULL);
     if (!job->canonical)
         return console_error(EXIT_CODE_FAILED, "out of memory");

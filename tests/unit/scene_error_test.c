@@ -532,6 +532,13 @@ static void scenes_hardly_meant_are_warned_of(void **state)
         {"mangata: 1\nsky: {aerial: on}\n", NULL},
         {"mangata: 1\nsky: {model: black, stars: on}\n", "s.yaml:2:28: sky.stars shows stars in the model atmosphere"},
         {"mangata: 1\nsky: {stars: on}\n", NULL},
+        {"mangata: 1\nsky: {model: black}\n",
+         "s.yaml:2:14: under a black sky the exposure follows from the light alone: glitter of a disk of 0.267 degrees is displayed nearly "
+         "black; post.exposure_offset: 5.8 "},
+        {"mangata: 1\nsky: {model: black}\nlight: {angular_radius_deg: 1}\n", NULL},
+        {"mangata: 1\nsky: {model: black}\nlight: {radiance: [0, 0, 0]}\n", NULL},
+        {"mangata: 1\nsky: {model: black}\npost: {exposure_offset: 6}\n", NULL},
+        {"mangata: 1\nsky: {model: black}\npost: {exposure: -18}\n", NULL},
         {"mangata: 1\nwater:\n  waves: [{amplitude: 0.1, a: 1, b: 0, c: 1}]\n  foam: {share: 0.1}\n", "s.yaml:4:9: foam is on water that is pressed together"},
         {"mangata: 1\nwater:\n  choppiness: 0.5\n  waves: [{amplitude: 0.1, a: 1, b: 0, c: 1}]\n  foam: {share: 0.1}\n", NULL},
         {"mangata: 1\nwater: {wind: 12}\n", NULL},
