@@ -190,7 +190,7 @@ void gl_uniform(gl_renderer *g, GLuint binding, const void *data, size_t size)
 
 void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture)
 {
-    g->gl.BindTextureUnit(unit, texture);
+    g->gl.BindTextureUnit(unit, texture ? texture : g->sky_texture); /* 0 would unbind the host's textures of all targets */
     g->gl.BindSampler(unit, g->sampler);
 }
 

@@ -120,7 +120,7 @@ mgt_status gl_use(gl_renderer *g, gl_program which, const reporter *r);
 /* Number of waves that a block for `count` waves has room for. In a uniform block that is the number that shaders declare; elsewhere it is at least one. */
 size_t gl_wave_room(const gl_renderer *g, size_t count);
 
-/* Binds a texture to a unit. */
+/* Binds a texture to a unit. 0 stands for any texture, for a unit that is not read. */
 void gl_bind_texture(const gl_renderer *g, GLuint unit, GLuint texture);
 
 /* Binds an image to a unit. An image that was never reserved unbinds the unit. */

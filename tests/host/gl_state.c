@@ -246,7 +246,7 @@ static const struct {
 
 /* What is bound everywhere. */
 typedef struct hostile_objects {
-    GLuint buffer, texture, sampler, array, pipeline, framebuffer, renderbuffer, query;
+    GLuint buffer, texture, cube, sampler, array, pipeline, framebuffer, renderbuffer, query;
 } hostile_objects;
 
 static hostile_objects made;
@@ -258,6 +258,8 @@ void gl_state_make_hostile(void)
     glNamedBufferStorage(o->buffer, 1 << 16, NULL, 0);
     glCreateTextures(GL_TEXTURE_2D, 1, &o->texture);
     glTextureStorage2D(o->texture, 1, GL_RGBA32F, 4, 4);
+    glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &o->cube);
+    glTextureStorage2D(o->cube, 1, GL_RGBA8, 4, 4);
     glCreateSamplers(1, &o->sampler);
     glSamplerParameteri(o->sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glCreateVertexArrays(1, &o->array);
@@ -279,6 +281,7 @@ void gl_state_make_hostile(void)
     }
     for (GLuint unit = 0; unit < UNITS; unit++) {
         glBindTextureUnit(unit, o->texture);
+        glBindTextureUnit(unit, o->cube);
         glBindSampler(unit, o->sampler);
     }
     glActiveTexture(GL_TEXTURE5);
@@ -353,6 +356,7 @@ void gl_state_make_friendly(void)
     glPrimitiveRestartIndex(0);
     glDeleteBuffers(1, &o->buffer);
     glDeleteTextures(1, &o->texture);
+    glDeleteTextures(1, &o->cube);
     glDeleteSamplers(1, &o->sampler);
     glDeleteVertexArrays(1, &o->array);
     glDeleteProgramPipelines(1, &o->pipeline);

@@ -527,15 +527,17 @@ static void default_framebuffer(void **state)
 
 /* ---- what a frame costs the host ------------------------------------------------------------------------- */
 
-/* All that a host can draw but leadr, which is lean with another kernel; podee-* with kernels in place of its Gaussian on its second visit. */
-static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_NONE, MGT_METHOD_SSAA,     MGT_METHOD_PODEE_UNIFORM, MGT_METHOD_PODEE_PIXEL,
-                                     MGT_METHOD_MSAA32,  MGT_METHOD_LEAN, MGT_METHOD_ADAPTIVE, MGT_METHOD_TOKUYOSHI,     MGT_METHOD_BRUNETON,
-                                     MGT_METHOD_FXAA,    MGT_METHOD_TAA,  MGT_METHOD_TNDF,     MGT_METHOD_GGX_MOMENTS,   MGT_METHOD_PODEE_PIXEL};
+/* All that a host can draw but leadr, which is lean with another kernel; podee-* on its second visit with sums in place of its Gaussian, before it has the
+ * tables of kernels, and with kernels on its third. */
+static const mgt_method methods[] = {MGT_METHOD_MANGATA,     MGT_METHOD_NONE,        MGT_METHOD_SSAA,        MGT_METHOD_PODEE_UNIFORM,
+                                     MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MSAA32,      MGT_METHOD_LEAN,        MGT_METHOD_ADAPTIVE,
+                                     MGT_METHOD_TOKUYOSHI,   MGT_METHOD_BRUNETON,    MGT_METHOD_FXAA,        MGT_METHOD_TAA,
+                                     MGT_METHOD_TNDF,        MGT_METHOD_PODEE_PIXEL, MGT_METHOD_PODEE_PIXEL, MGT_METHOD_GGX_MOMENTS};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 static mgt_quality quality_of(int i)
 {
-    const mgt_mixture kernels = i + 1 == METHODS ? MGT_MIXTURE_5 : MGT_MIXTURE_EXACT;
+    const mgt_mixture kernels = i + 3 == METHODS ? MGT_MIXTURE_RIEMANN : i + 2 == METHODS ? MGT_MIXTURE_5 : MGT_MIXTURE_EXACT;
     const mgt_adaptive scheme = methods[i] == MGT_METHOD_ADAPTIVE ? MGT_ADAPTIVE_PODEE : MGT_ADAPTIVE_CELLS;
     return (mgt_quality){.method = methods[i], .spatial_samples = 1, .time_samples = 1, .kernels = kernels, .adaptive = scheme};
 }
