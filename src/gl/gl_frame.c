@@ -63,14 +63,19 @@ static mgt_status reserve_tiles(gl_run *run, size_t sets)
 /* Whether pixels are shaded. That also finds the foam. */
 static bool shades_pixels(const gl_job *job) { return job->wants_pixels || job->wants_foam; }
 
+static mgt_status check_size(const gl_renderer *g, const region *area, const reporter *r)
+{
+    if (area->width <= g->limits.texture_side && area->height <= g->limits.texture_side)
+        return MGT_OK;
+    return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
+                        "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU", area->width, area->height,
+                        g->limits.texture_side);
+}
+
 static mgt_status reserve_layers(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     gl_layers *l = &g->layers;
     const region *a = &job->area;
-    if (a->width > g->limits.texture_side || a->height > g->limits.texture_side)
-        return report_error(r, MGT_ERROR_UNSUPPORTED, "render.size",
-                            "%u x %u pixels are more than this OpenGL's textures hold: %u a side; render a crop or use the CPU", a->width, a->height,
-                            g->limits.texture_side);
     mgt_status status = MGT_OK;
     const bool shades = shades_pixels(job);
     if (shades && job->frame->data.want_color)
@@ -560,10 +565,12 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
 {
     const mgt_quality *q = &job->frame->scene->quality;
     const method_row *method = method_of(q->method);
-    if (method->way == METHOD_PASS)
+    mgt_status status = check_size(g, &job->area, r);
+    if (status == MGT_OK && method->way == METHOD_PASS)
         return gl_whole_frame_render(g, job, r);
     gl_run run;
-    mgt_status status = reserve_layers(g, job, r);
+    if (status == MGT_OK)
+        status = reserve_layers(g, job, r);
     if (status == MGT_OK)
         status = gl_run_begin(&run, g, job, method->properties.waves == MGT_WAVES_SHUTTER && job->frame->scene->camera_moves ? 2 : 1, r);
     if (status == MGT_OK && shades_pixels(job))
