@@ -63,4 +63,9 @@ for name in color podee coverage normal wipe; do
 done
 differ banner.png gl-color.png
 same lost.png cpu-color.png
+
+# An OpenGL that gives up on the first frame, here as it knows no GLSL 4.50: the CPU draws it.
+printf '%s\n' 'set panel.shown off' 'set view.resolution full' 'screenshot first.png' quit |
+    MESA_GL_VERSION_OVERRIDE=4.5 MESA_GLSL_VERSION_OVERRIDE=430 gl "$scene" --size 240x150 || fail "exit code: $(head -c 600 stderr.txt)"
+expect 0 '' "$MANGATA" diff --max-rmse 0.01 first.png cpu-color.png
 finish

@@ -291,8 +291,11 @@ static void order(viewer *v)
     o.scene.water.waves = v->render.ordered.waves;
     o.models = v->render.ordered.models;
     v->render.reduced = scale < 1 && v->settings.view.resolution == RESOLUTION_AUTO;
+    const bool by_gl = v->render.gl != NULL;
     post(v, &o);
     v->render.last = o;
+    if (by_gl && !v->render.gl) /* OpenGL has given up on this order: the worker gets one of its own */
+        v->render.last.serial = 0;
 }
 
 /* ---- results ---- */
