@@ -64,6 +64,12 @@ wipe none podee-pixel 0.4
 screenshot wiped.png
 drag 282 300 500 300
 expect-change
+# a slider over the divider moves alone
+wipe none podee-pixel 0.5
+drag 353 570 300 570
+expect-value view.wipe 0.5
+pointer 500 300
+set clock.time 10
 set view.compare difference
 screenshot difference.png
 set view.compare off

@@ -86,13 +86,11 @@ void input_button(viewer *v, int button, int action, int modifiers)
         v->pointer.drag.kind = DRAG_NONE;
         return;
     }
-    if (over_divider(v, p->x) && p->x < (double)v->place.room.width && button == GLFW_MOUSE_BUTTON_LEFT) {
-        begin_drag(v, DRAG_WIPE);
-        return;
-    }
     if (ui_takes_pointer())
         return;
-    if (modifiers & GLFW_MOD_CONTROL)
+    if (over_divider(v, p->x) && button == GLFW_MOUSE_BUTTON_LEFT)
+        begin_drag(v, DRAG_WIPE);
+    else if (modifiers & GLFW_MOD_CONTROL)
         inspect_at(v, p->x, p->y);
     else
         begin_drag(v, drag_of(v, button, modifiers));
