@@ -138,4 +138,9 @@ expect 0 '' "$MANGATA" scene check saved.yaml
 grep -q 'path:' saved.yaml || fail "the saved scene has no path"
 works render saved.yaml -o saved.png --frames 15 --quiet --size 707x600
 expect 0 '' "$MANGATA" diff --max-rmse 0 saved.png viewer.png
+
+# A view off the path is in no saved scene, and a word tells so.
+printf 'press k\nsave-scene free.yaml\n' >free.txt
+works view scene.json --size 320x200 --backend cpu --script free.txt
+grep -q '^saved free.yaml; its camera follows the path' stderr.txt || fail "no word on the view: $(cat stderr.txt)"
 finish
