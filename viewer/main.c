@@ -27,7 +27,8 @@ static void on_glfw_error(int code, const char *text)
 /* Creates the window with a context of OpenGL `major`.`minor` core. NULL: GLFW cannot. */
 static GLFWwindow *make_window(const view_request *r, const scene_values *values, int major, int minor)
 {
-    const GLFWvidmode *screen = glfwGetVideoMode(glfwGetPrimaryMonitor());
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor(); /* NULL where no screen is connected */
+    const GLFWvidmode *screen = monitor ? glfwGetVideoMode(monitor) : NULL;
     uint32_t width = r->changes.width ? r->changes.width : values->image.width, height = r->changes.height ? r->changes.height : values->image.height;
     if (screen && !r->changes.width) {
         width = width < (uint32_t)screen->width ? width : (uint32_t)screen->width;
