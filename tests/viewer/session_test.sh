@@ -143,4 +143,22 @@ expect 0 '' "$MANGATA" diff --max-rmse 0 saved.png viewer.png
 printf 'press k\nsave-scene free.yaml\n' >free.txt
 works view scene.json --size 320x200 --backend cpu --script free.txt
 grep -q '^saved free.yaml; its camera follows the path' stderr.txt || fail "no word on the view: $(cat stderr.txt)"
+
+# Letters are those on the keys: on a German keyboard Z lies where a US keyboard has Y.
+coproc keyboard { exec "$SOURCE/tests/viewer/press_label.py" de 29; }
+answers=${keyboard[0]:-}
+if [[ -n $answers ]] && read -r _ <&"$answers"; then
+    mkfifo keys
+    view scene.json --size 320x200 --backend cpu --quiet --script keys 2>stderr.txt &
+    exec 5<>keys
+    printf '%s\n' 'set light.elevation_deg 33' 'screenshot ready.png' >&5
+    for ((i = 0; i < 1200 && $(stat -c %s ready.png 2>/dev/null || echo 0) == 0; i++)); do sleep 0.05; done
+    echo >&"${keyboard[1]}"
+    read -r _ <&"$answers"
+    printf '%s\n' 'frames 5' 'expect-value light.elevation_deg 7' quit >&5
+    exec 5>&-
+    wait $! || fail "the key labelled Z: $(cat stderr.txt)"
+else
+    echo "NOTICE: no keyboard of another layout; labels of keys are not tested"
+fi
 finish

@@ -226,7 +226,7 @@ static void press(viewer *v, int key, int modifiers)
     }
 }
 
-void input_key(viewer *v, int key, int action, int modifiers)
+void input_key(viewer *v, int key, int label, int action, int modifiers)
 {
     static const int held[] = {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E};
     for (int i = 0; i < 6; i++)
@@ -234,10 +234,10 @@ void input_key(viewer *v, int key, int action, int modifiers)
             v->pointer.keys[i] = action != GLFW_RELEASE && !ui_takes_keys() && !(modifiers & GLFW_MOD_CONTROL);
     if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT)
         v->pointer.fast = action != GLFW_RELEASE;
-    const bool steps = modifiers & GLFW_MOD_CONTROL && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
-    const bool repeats = key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD || steps;
+    const bool steps = modifiers & GLFW_MOD_CONTROL && (label == GLFW_KEY_Z || label == GLFW_KEY_Y);
+    const bool repeats = label == GLFW_KEY_COMMA || label == GLFW_KEY_PERIOD || steps;
     if (!ui_takes_keys() && (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats)))
-        press(v, key, modifiers);
+        press(v, label, modifiers);
 }
 
 void input_press_key(viewer *v, const char *name)
@@ -246,18 +246,25 @@ void input_press_key(viewer *v, const char *name)
     const int key = key_from_name(name, &modifiers);
     if (key < 0)
         return;
-    input_key(v, key, GLFW_PRESS, modifiers);
-    input_key(v, key, GLFW_RELEASE, modifiers);
+    input_key(v, key, key, GLFW_PRESS, modifiers);
+    input_key(v, key, key, GLFW_RELEASE, modifiers);
 }
 
 /* ---- GLFW ---- */
 
 static viewer *viewer_of(GLFWwindow *window) { return glfwGetWindowUserPointer(window); }
 
+/* The key of a letter by its label. GLFW names keys by their places on a US keyboard, and on others Z and Y, or Q and A, have changed places. */
+static int label_of(int key, int scancode)
+{
+    const char *name = glfwGetKeyName(key, scancode);
+    return name && name[0] >= 'a' && name[0] <= 'z' && !name[1] ? GLFW_KEY_A + name[0] - 'a' : key;
+}
+
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
     ui_on_key(window, key, scancode, action, modifiers);
-    input_key(viewer_of(window), key, action, modifiers);
+    input_key(viewer_of(window), key, label_of(key, scancode), action, modifiers);
 }
 
 static void on_button(GLFWwindow *window, int button, int action, int modifiers)

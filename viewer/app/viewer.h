@@ -328,9 +328,9 @@ bool viewer_undo(viewer *v, int by);
 
 /* ---- input (input.c, pointer.c) ---- */
 
-/* Events of GLFW and of scripts. Places are in window coordinates. Keys, buttons, actions and modifiers have GLFW's numbers. input_scroll() takes steps of the
- * wheel. */
-void input_key(viewer *v, int key, int action, int modifiers);
+/* Events of GLFW and of scripts. Places are in window coordinates. Keys, buttons, actions and modifiers have GLFW's numbers. `key` is a place on the
+ * keyboard, by which the camera moves, `label` the key of that label, for all else. input_scroll() takes steps of the wheel. */
+void input_key(viewer *v, int key, int label, int action, int modifiers);
 void input_button(viewer *v, int button, int action, int modifiers);
 void input_pointer(viewer *v, double x, double y);
 void input_scroll(viewer *v, double amount, int modifiers);

@@ -194,7 +194,7 @@ static bool is_waiting(viewer *v)
 {
     script *s = v->script;
     if (s->held_left > 0 && --s->held_left == 0)
-        input_key(v, s->held_key, GLFW_RELEASE, s->held_modifiers);
+        input_key(v, s->held_key, s->held_key, GLFW_RELEASE, s->held_modifiers);
     if (s->frames_left > 0) {
         s->frames_left--;
         return true;

@@ -88,7 +88,7 @@ static void do_hold(viewer *v)
         script_fail(v, "no key %s", s->words[1]);
         return;
     }
-    input_key(v, s->held_key, GLFW_PRESS, s->held_modifiers);
+    input_key(v, s->held_key, s->held_key, GLFW_PRESS, s->held_modifiers);
     s->held_left = (int)frames;
     script_wait(s, (int)frames + 1);
 }
