@@ -81,6 +81,27 @@ async function rests() {
   const figures = await browser.run("element('figures').textContent");
   expect(/over those of brute force/.test(figures) && /flicker [×≤] \d/.test(figures) && !/NaN|Infinity/.test(figures), `brute force judges a picture that rests: ${figures}`);
   expect(await browser.run("element('canvas').width === sizes(() => 1)[0]"), "a picture at rest has all of the window's pixels");
+  const fits = await browser.run(`(() => {
+    const { engine } = page.view, { gl } = engine;
+    gl.getError();
+    engine.data("hit_texture", new Float32Array(4 * 1024 * 8200));
+    return gl.getError() === gl.NO_ERROR;
+  })()`);
+  expect(fits, "first hits of large pictures fit into a texture of 8192 rows");
+}
+
+// A sea that there is not, in the first link of a page that begins paused.
+async function withoutPictures() {
+  await browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-reduced-motion", value: "reduce" }] });
+  await browser.open("about:blank");
+  await browser.open("file://" + resolve(page) + "#wind=20&fetch=1");
+  await until("!element('word').hidden && page.view");
+  await pause(500);
+  const word = await browser.run("element('word').textContent");
+  expect(/^no sea has a wind of 20 m/.test(word), `a first link to no sea is told: ${word}`);
+  await browser.run("(() => { element('set-fetch').value = 0; element('set-fetch').dispatchEvent(new Event('input')); })()");
+  await until("page.firstPicture");
+  await browser.send("Emulation.setEmulatedMedia", { features: [] });
 }
 
 async function exports() {
@@ -127,6 +148,7 @@ try {
     await gestures();
     await rests();
     await exports();
+    await withoutPictures();
     await withoutWebGL();
   });
   expect(browser.errors.length === 0, `errors on the console: ${browser.errors.slice(0, 3).join("; ")}`);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The kernels as WebGL2 programs: pictures of a method into textures, textures to the canvas.
 
-const DATA_WIDTH = 1024; // texels of a row, as in web_data.glsl
+const DATA_WIDTH = 4096; // texels of a row, as in web_data.glsl; first hits of a picture of 3840 × 2160 take up to 28 million texels
+const SPARE_ROWS = 256; // of a texture that has grown
 // `byLanes`: workers can draw it, too.
 const METHODS = {
   none: { about: "one sample at the pixel's centre", program: ["points.frag"], byLanes: true },
@@ -28,6 +29,7 @@ class Engine {
     this.blockWaves = gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) >= this.blockBytes ? calls.block_waves() : 0;
     const names = gl.getExtension("WEBGL_debug_renderer_info");
     this.byCpu = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+    this.mostRows = gl.getParameter(gl.MAX_TEXTURE_SIZE);
     this.empty = gl.createVertexArray();
     gl.bindVertexArray(this.empty);
     gl.disable(gl.DITHER);
@@ -124,9 +126,10 @@ class Engine {
   data(name, numbers) {
     const gl = this.gl, whole = numbers instanceof Uint32Array, texels = numbers.length / 4, rows = Math.max(1, Math.ceil(texels / DATA_WIDTH));
     let entry = this.textures[name];
+    if (rows > this.mostRows) throw new Error("the picture is too large for the textures of this WebGL2");
     if (!entry || entry.rows < rows) {
       if (entry) gl.deleteTexture(entry.texture);
-      const room = Math.ceil(rows * 1.5);
+      const room = Math.min(rows + Math.min(rows, SPARE_ROWS), this.mostRows);
       entry = this.textures[name] = { rows: room, texture: this.newTexture(name, whole ? gl.RGBA32UI : gl.RGBA32F, DATA_WIDTH, room) };
     }
     this.bind(name, entry.texture);

@@ -139,6 +139,7 @@ function chooseWay() {
 // ---- pictures at rest: they sharpen, and brute force judges them ----
 
 async function rest() {
+  if (!page.pictures) return drawMoving(); // none could be drawn yet
   const { version } = page, stale = () => page.version !== version, full = sizes(() => 1), now = page.pictures[0];
   if (now.width < full[0] || page.settled !== version) {
     const [width, height] = sizes(() => Math.min(1, 2 * now.width / full[0]));

@@ -11,8 +11,8 @@
 precision highp sampler2D;
 precision highp usampler2D;
 
-const int DATA_WIDTH = 1024;
-ivec2 data_texel(int at) { return ivec2(at & (DATA_WIDTH - 1), at >> 10); }
+const int DATA_WIDTH = 4096;
+ivec2 data_texel(int at) { return ivec2(at & (DATA_WIDTH - 1), at >> 12); }
 
 layout(std140) uniform FrameBlock { FrameData frame_data; };
 #define FRAME(cx) frame_data
