@@ -139,6 +139,13 @@ static double wanted_scale(const viewer *v, bool moving)
     return moving ? moving_scale(v) : 1;
 }
 
+/* The scale at which the picture fits into a texture of the window, at most `scale`. */
+static double fitting_scale(const viewer *v, double scale)
+{
+    const uint32_t side = v->place.width > v->place.height ? v->place.width : v->place.height;
+    return fmin(scale, (double)display_most_side(v->display) / side);
+}
+
 /* Pixels of a scaled side. The scale has steps of an eighth, so that sizes do not change from frame to frame. */
 static uint32_t scaled(uint32_t side, double scale)
 {
@@ -274,7 +281,7 @@ static void order(viewer *v)
     if (changed)
         v->render.changed_at = v->render.last.serial == 0 ? -1 : time;
     const bool moving = time - v->render.changed_at < still_after;
-    const double scale = wanted_scale(v, moving);
+    const double wanted = wanted_scale(v, moving), scale = fitting_scale(v, wanted);
     o.scene = now.scene;
     o.scene.image = (mgt_image){.width = scaled(v->place.width, scale), .height = scaled(v->place.height, scale)};
     const mgt_image *old = &v->render.last.scene.image;
@@ -290,7 +297,7 @@ static void order(viewer *v)
     copy_shot(&v->render.ordered, &now);
     o.scene.water.waves = v->render.ordered.waves;
     o.models = v->render.ordered.models;
-    v->render.reduced = scale < 1 && v->settings.view.resolution == RESOLUTION_AUTO;
+    v->render.reduced = wanted < 1 && v->settings.view.resolution == RESOLUTION_AUTO;
     const bool by_gl = v->render.gl != NULL;
     post(v, &o);
     v->render.last = o;

@@ -22,6 +22,7 @@ typedef struct display_uniforms {
 struct display {
     const gl_functions *gl;
     GLuint program, vertices, palettes;
+    GLint most_side; /* largest side of a texture, pixels */
     display_uniforms uniforms;
     side_picture sides[SIDE_COUNT];
 };
@@ -178,6 +179,7 @@ display *display_create(const gl_functions *gl, char *error, size_t error_size)
         return NULL;
     }
     d->gl = gl;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &d->most_side);
     gl->GenVertexArrays(1, &d->vertices);
     if (!build_program(d, error, error_size)) {
         display_destroy(d);
@@ -202,6 +204,8 @@ void display_destroy(display *d)
 }
 
 /* ---- textures ---- */
+
+uint32_t display_most_side(const display *d) { return (uint32_t)d->most_side; }
 
 /* Whether a side's texture is of this layer, size and kind of storage. */
 static bool fits(const side_picture *s, mgt_layer layer, uint32_t width, uint32_t height, bool immutable)

@@ -25,6 +25,9 @@ typedef struct display_view {
 display *display_create(const gl_functions *gl, char *error, size_t error_size);
 void display_destroy(display *d);
 
+/* Largest side of a picture, pixels. */
+uint32_t display_most_side(const display *d);
+
 /* Copies a picture from memory into a side's texture. `pixels` are 4 bytes of displayed colour per pixel for MGT_LAYER_COLOR; for other layers 1 or 3 floats per
  * pixel. */
 void display_upload(display *d, int side, mgt_layer layer, uint32_t width, uint32_t height, const void *pixels);
