@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "frame/air.h"
+#include "frame/fresnel.h"
 #include "frame/spectrum.h"
 #include "frame/stars.h"
 #include "params/scene_rows.h"
@@ -174,20 +175,12 @@ static double automatic_exposure(const sky_state *state, double key)
 
 /* ---- interface ------------------------------------------------------------------------------------------ */
 
-/* Fresnel's reflectance of a flat surface for unpolarised light from above; `n` is the water's index of refraction. */
-static double fresnel(double cosine, double n)
-{
-    double inside = sqrt(fmax(0.0, 1.0 - (1.0 - cosine * cosine) / (n * n)));
-    double s = (cosine - n * inside) / (cosine + n * inside), p = (n * cosine - inside) / (n * cosine + inside);
-    return cosine + inside > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
-}
-
 /* Irradiance by the lights that enters the water through a flat surface. */
 static void sum_entering(const light_set *lights, double n, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0.0;
     for (int i = 0; i < lights_count(lights); ++i) {
-        double sine = light_toward(lights_get(lights, i))[1], share = sine > 0.0 ? 1.0 - fresnel(sine, n) : 0.0, irradiance[3];
+        double sine = light_toward(lights_get(lights, i))[1], share = sine > 0.0 ? 1.0 - fresnel_reflectance(sine, n) : 0.0, irradiance[3];
         light_irradiance(lights_get(lights, i), irradiance);
         for (int c = 0; c < 3; ++c) {
             rgb[c] += irradiance[c] * share;
@@ -197,13 +190,7 @@ static void sum_entering(const light_set *lights, double n, double rgb[3])
 
 void sky_upwelling_radiance(const sky_state *state, const mgt_water *water, double rgb[3])
 {
-    enum { STEPS = 64 };
-    double n = water->index_of_refraction, mirrored = 0.0;
-    for (int i = 0; i < STEPS; ++i) {
-        double cosine = (i + 0.5) / STEPS;
-        mirrored += fresnel(cosine, n) * 2.0 * cosine / STEPS;
-    }
-    double light_enters[3];
+    double n = water->index_of_refraction, mirrored = fresnel_diffuse(n), light_enters[3];
     sum_entering(state->lights, n, light_enters);
     for (int c = 0; c < 3; ++c) {
         double enters = light_enters[c] + state->irradiance_sky[c] * (1.0 - mirrored);

@@ -6,29 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame/fresnel.h"
 #include "frame/mesh.h"
-
-/* Fresnel's reflectance into a medium of index n, for unpolarised light. */
-static double fresnel(double cosine, double n)
-{
-    const double squared = n * n - 1 + cosine * cosine;
-    if (squared <= 0)
-        return 1;
-    const double g = sqrt(squared), a = (g - cosine) / (g + cosine), b = (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1);
-    return 0.5 * a * a * (1 + b * b);
-}
-
-/* Fresnel's reflectance into a medium of index n, for diffuse light. */
-static double fresnel_diffuse(double n)
-{
-    enum { STEPS = 64 };
-    double mirrored = 0;
-    for (int i = 0; i < STEPS; i++) {
-        const double cosine = (i + 0.5) / STEPS;
-        mirrored += fresnel(cosine, n) * 2 * cosine / STEPS;
-    }
-    return mirrored;
-}
 
 /* The slopes of the light's rays in air and, refracted by a flat surface, in water. A light below the least elevation is placed there. */
 static shadow_rays rays_of(const double direction[3], double n)
@@ -48,7 +27,7 @@ static void set_light(ShadeData *d, const frame *f, const sky_state *sky, const 
 {
     const mgt_water *water = &f->scene->water;
     const light_state *light = lights_get(sky->lights, 0);
-    const double n = water->index_of_refraction, up = light_toward(light)[1], entering = up > 0 ? 1 - fresnel(up, n) : 0;
+    const double n = water->index_of_refraction, up = light_toward(light)[1], entering = up > 0 ? 1 - fresnel_reflectance(up, n) : 0;
     const double slant = sqrt(1 + rays->water[0] * rays->water[0] + rays->water[1] * rays->water[1]), diffuse = 1 - fresnel_diffuse(n);
     double sun[3], sun_water[3], above[3], ground[3];
     light_beam(light, sun);
