@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "params/waves.h"
+#include "sea/spectrum_model.h"
 #include "viewer/app/panels.h"
 
-static const double gravity = 9.81, pi = 3.14159265358979323846;
+static const double pi = 3.14159265358979323846;
 
 /* ---- the plot ---- */
 
@@ -81,7 +82,7 @@ static bool handle_at(const viewer *v, size_t index, plot_handle *out)
     const scene_water *water = &v->document.values.water;
     const scene_swell *swells = water->swell.items;
     if (index < water->swell.count) {
-        *out = (plot_handle){gravity * swells[index].period * swells[index].period / (2 * pi), swells[index].height / 2, "swell"};
+        *out = (plot_handle){SPECTRUM_GRAVITY * swells[index].period * swells[index].period / (2 * pi), swells[index].height / 2, "swell"};
         return true;
     }
     index -= water->swell.count;
@@ -147,7 +148,7 @@ static void pull_handle(viewer *v, const ui_rect *box, const ui_pointer *pointer
         return;
     size_t index = (size_t)v->held_handle;
     if (index < water->swell.count) {
-        set(v, "water.swell", index, "period", sqrt(2 * pi * length / gravity));
+        set(v, "water.swell", index, "period", sqrt(2 * pi * length / SPECTRUM_GRAVITY));
         set(v, "water.swell", index, "height", 2 * height);
         return;
     }
