@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * mgt_inspect(): what method mangata computes for one pixel. */
+ * mgt_inspect_pixel(): what method mangata computes for one pixel. */
 #ifndef MANGATA_CPU_INSPECT_H
 #define MANGATA_CPU_INSPECT_H
 

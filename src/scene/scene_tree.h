@@ -30,7 +30,7 @@ struct tree_node {
 
 typedef struct scene_tree {
     const char *file_name; /* for messages; must outlive the tree */
-    tree_node *root;       /* NULL until tree_parse_file() */
+    tree_node *root;       /* NULL until the caller of tree_parse() sets it */
     size_t node_count;
     struct tree_block *blocks;
 } scene_tree;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The kernel dialect at one lane with every operation on a pixel's value counted. It stands before src/ in the include path and so
- * takes the place of src/kernels/prelude_c.h, with the same words and the same results.
+ * takes the place of src/kernels/common/prelude_c.h, with the same words and the same results.
  *
  * This is C++ because C cannot count a bare `a + b`: kernels write + - * / on reals, and only a class can give these a meaning of
  * ours. Uniform floats are not counted: they cost one operation for a whole tile or vector.
