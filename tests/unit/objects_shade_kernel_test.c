@@ -166,6 +166,27 @@ static void highlights_are_means_over_normals(void **state)
     assert_true(peak < 0.2);
 }
 
+/* Λ of Smith's masking for GGX. */
+static double smith_at(double alpha, double cosine) { return (sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1) / 2; }
+
+/* D G₂/(4 n·v), and (1 − c)⁵. */
+static void lobes_are_ggx_behind_smiths_masking(void **state)
+{
+    (void)state;
+    numbers.state = 9;
+    double lobe = 0, edge = 0;
+    for (int i = 0; i < 400; i++) {
+        const double alpha = exp(range(-3, 0)), cosine = range(0.5, 1), l = range(0.05, 1), v = range(0.05, 1);
+        const HitSurface s = {.shading = vec3(0, 1, 0)};
+        const GlossyNormals g = glossy_normals(NULL, (float)alpha, s, vec3((float)sqrt(1 - cosine * cosine), (float)cosine, 0));
+        const double expected = ggx_at(alpha, cosine) / (4 * v * (1 + smith_at(alpha, l) + smith_at(alpha, v)));
+        lobe = fmax(lobe, fabs((double)glossy_lobe(NULL, g, (float)l, (float)v) / expected - 1));
+        edge = fmax(edge, fabs((double)schlick(NULL, (float)cosine) - pow(1 - cosine, 5)));
+    }
+    printf("lobes: within %.2g of GGX and Smith; Schlick's factor within %.2g\n", lobe, edge);
+    assert_true(lobe < 2e-3 && edge < 1e-6);
+}
+
 /* The turning of the normal over the footprint against that between points a fifth of its deviation apart. */
 static void normals_turn_as_they_do_between_points(void **state)
 {
@@ -218,6 +239,19 @@ static void glow_is_the_integral(void **state)
         }
         const float found = scattered_once(NULL, (float)light, (float)sigma, (float)b, (float)slant, (float)depth, (float)fall, (float)distance);
         assert_true(fabs((double)found - sum) <= 1e-4 * sum + 1e-7);
+    }
+}
+
+static void water_dims_by_beers_law(void **state)
+{
+    (void)state;
+    numbers.state = 3;
+    for (int i = 0; i < 200; i++) {
+        const double taken = range(0, 2), scattered = range(0, 2), distance = exp(range(-3, 2));
+        shade_data = (ShadeData){.absorption_g = (float)taken, .scattering_g = (float)scattered};
+        const vec3 left = water_transmittance(NULL, (float)distance);
+        assert_true(fabs((double)left.x - 1) < 1e-6 && fabs((double)left.z - 1) < 1e-6);
+        assert_true(fabs((double)left.y - exp(-(taken + scattered) * distance)) < 1e-6);
     }
 }
 
@@ -363,8 +397,10 @@ int main(void)
         cmocka_unit_test(patterns_are_box_means),
         cmocka_unit_test(textures_repeat_between_texels_and_levels),
         cmocka_unit_test(highlights_are_means_over_normals),
+        cmocka_unit_test(lobes_are_ggx_behind_smiths_masking),
         cmocka_unit_test(normals_turn_as_they_do_between_points),
         cmocka_unit_test(glow_is_the_integral),
+        cmocka_unit_test(water_dims_by_beers_law),
         cmocka_unit_test(mirrored_ways_have_two_parts),
         cmocka_unit_test(caustics_are_shares_of_area),
         cmocka_unit_test(slopes_bend_the_view_to_the_light),
