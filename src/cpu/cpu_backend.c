@@ -453,8 +453,10 @@ static mgt_status make_reference(render_job *job, const reporter *r)
                         .stars = job->frame->data.stars ? reference_stars : NULL,
                         .user = sky};
     sky_upwelling_radiance(sky, &job->scene->water, rs.body_radiance);
-    for (int i = 0; i < lights_count(sky->lights); i++)
+    for (int i = 0; i < lights_count(sky->lights); i++) {
         light_mean_radiance(lights_get(sky->lights, i), rs.disks[i]);
+        rs.hidden[i] = 1 - light_visible_part(lights_get(sky->lights, i));
+    }
     frame_foam_light(job->scene, sky, rs.foam_sky, rs.foam_beams);
     const reference_options options = {.isa = job->state->isa};
     const mgt_status status = reference_frame_create(&job->reference, job->scene, &rs, &options);

@@ -200,6 +200,7 @@ static LightData light_data(const light_state *state, bool under)
         .light_azimuth_z = (float)state->azimuth[1],
         .limb = (float)state->limb,
         .light_visible = state->light.elevation_deg >= 0 ? 1 : 0,
+        .light_hidden = (float)(1 - state->light_visible),
         .light_radiance_r = (float)state->light_radiance[0],
         .light_radiance_g = (float)state->light_radiance[1],
         .light_radiance_b = (float)state->light_radiance[2],

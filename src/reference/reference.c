@@ -184,6 +184,16 @@ static void place_sample(const reference_frame *frame, uint32_t x, uint32_t y, u
 
 typedef enum seen_lights { LIGHTS_NONE, LIGHTS_RISEN, LIGHTS_ALL } seen_lights;
 
+/* Adds the disks that are seen directly. What stands above the horizon has all of a disk's light; the water hides the rest. */
+static void add_disks_above(const reference_frame *frame, const double direction[3], double rgb[3])
+{
+    double above[REFERENCE_LIGHTS][3];
+    for (int i = 0; i < REFERENCE_LIGHTS; i++)
+        for (int c = 0; c < 3; c++)
+            above[i][c] = frame->sky.disks[i][c] / fmax(1 - frame->sky.hidden[i], 0.02);
+    reference_lights_add(frame->lights, above, direction, false, rgb);
+}
+
 /* Radiance of sky and lights in a direction. LIGHTS_RISEN: only lights whose centre is above the horizon. A direction below the horizon gets the sky of the
  * horizon. */
 static void radiance_of_sky(const reference_frame *frame, const double direction[3], seen_lights lights, double rgb[3])
@@ -200,8 +210,10 @@ static void radiance_of_sky(const reference_frame *frame, const double direction
         }
         sky->lookup(sky->user, d, rgb);
     }
-    if (lights != LIGHTS_NONE)
-        reference_lights_add(frame->lights, sky->disks, direction, lights == LIGHTS_RISEN, rgb);
+    if (lights == LIGHTS_RISEN)
+        reference_lights_add(frame->lights, sky->disks, direction, true, rgb);
+    if (lights == LIGHTS_ALL)
+        add_disks_above(frame, direction, rgb);
 }
 
 /* Returns whether a sample's mirrored ray meets a light. `rgb`, if not NULL, becomes the sample's radiance. */

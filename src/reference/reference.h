@@ -34,7 +34,8 @@ typedef struct reference_sky {
      * over a square of the pixel's solid angle, whose side is `pixel_angle` radians. NULL: there are no stars. */
     void (*stars)(const void *user, const double direction[3], double pixel_angle, double rgb[3]);
     const void *user;
-    double disks[REFERENCE_LIGHTS][3];                   /* mean radiance of each light's disk at the observer */
+    double disks[REFERENCE_LIGHTS][3];                   /* mean radiance of each light's disk at the observer, what the horizon hides being black */
+    double hidden[REFERENCE_LIGHTS];                     /* fraction of each disk's light that the horizon hides */
     double body_radiance[3];                             /* upwelling radiance; a view gets 1 − F of it, F being Fresnel's reflectance */
     double foam_sky[3], foam_beams[REFERENCE_LIGHTS][3]; /* radiance of foam with albedo 1: by the sky, and by each light for foam that faces it */
 } reference_sky;

@@ -236,7 +236,7 @@ static void light_in_the_sky_has_its_area_and_limb(void **unused)
     scene.camera.target[1] += 4;
     scene.camera.fov_y_deg = 6;
     scene.quality.spatial_samples = 8;
-    const reference_sky sky = {.disks = {{1, 10, 100}}};
+    const reference_sky sky = {.disks = {{0.5, 5, 50}}, .hidden = {0.5}}; /* what is above the horizon is twice as bright as the mean */
     picture p = render(&scene, &sky, NULL);
     double sum[3] = {0};
     for (size_t i = 0; i < picture_pixels(&p); i++)
