@@ -308,9 +308,51 @@ static void light_is_kept_within_limits(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- from below ---- */
+
+static double coverage_sum(mgt_context *context, const mgt_scene *scene)
+{
+    static float coverage[MOST];
+    const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0);
+    sea_render(context, scene, &target, 1);
+    double sum = 0;
+    for (uint32_t i = 0; i < scene->image.width * scene->image.height; i++)
+        sum += (double)coverage[i];
+    return sum;
+}
+
+/* From under water methods with shadowing see the sun as the others do. */
+static void the_sun_is_seen_from_below(void **state)
+{
+    (void)state;
+    static const struct {
+        mgt_method method;
+        double least, most;
+    } rows[] = {{MGT_METHOD_LEAN, 0.6, 1.4}, {MGT_METHOD_LEADR, 0.6, 1.4}, {MGT_METHOD_BRUNETON, 0.6, 1.4}, {MGT_METHOD_MANGATA, 0.6, 1.4}};
+    mgt_context *context = sea_context(0, MGT_ISA_AUTO);
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    scene.image = (mgt_image){.width = 32, .height = 18};
+    scene.camera = (mgt_camera){{0, -20, 0}, {0, 0, -14}, {0, 1, 0}, 60};
+    scene.light.elevation_deg = 35;
+    scene.quality.method = MGT_METHOD_SSAA;
+    scene.quality.spatial_samples = 16;
+    scene.quality.time_samples = 1;
+    const double exact = coverage_sum(context, &scene);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        mgt_quality_init(&scene.quality, sizeof scene.quality);
+        scene.quality.method = rows[i].method;
+        const double share = coverage_sum(context, &scene) / exact;
+        print_message("  from below, method %d: coverage %.3f of ssaa's %.4f\n", rows[i].method, share, exact);
+        assert_true(share > rows[i].least && share < rows[i].most);
+    }
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_sun_is_seen_from_below),
         cmocka_unit_test(every_scene_renders),
         cmocka_unit_test(threads_lanes_and_crops_change_nothing),
         cmocka_unit_test(msaa_is_none_but_for_the_edges),
