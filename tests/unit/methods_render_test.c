@@ -308,7 +308,7 @@ static void light_is_kept_within_limits(void **state)
     mgt_context_destroy(context);
 }
 
-/* ---- from below ---- */
+/* ---- small pictures of the light ---- */
 
 static double coverage_sum(mgt_context *context, const mgt_scene *scene)
 {
@@ -319,6 +319,41 @@ static double coverage_sum(mgt_context *context, const mgt_scene *scene)
     for (uint32_t i = 0; i < scene->image.width * scene->image.height; i++)
         sum += (double)coverage[i];
     return sum;
+}
+
+/* The sun's image on calm water has a tenth of a pixel's area. It is seen wherever it stands in a pixel, and on average over these places it has its area. */
+static void calm_water_mirrors_the_whole_sun(void **state)
+{
+    (void)state;
+    static const mgt_method calm_methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_ADAPTIVE};
+    static const double amplitudes[] = {0, 0.01};
+    mgt_context *context = sea_context(0, MGT_ISA_AUTO);
+    mgt_wave waves[SEA_WAVES];
+    mgt_scene scene = sea_scene(waves);
+    const double degree = 3.14159265358979323846 / 180, elevation = 20, step = 1.25, fov = 9 * step;
+    scene.image = (mgt_image){.width = 16, .height = 9};
+    scene.camera = (mgt_camera){{0, 4, 0}, {0, 4 - tan(elevation * degree), -1}, {0, 1, 0}, fov};
+    scene.light.angular_radius_deg = 0.2665;
+    const double pixel = 2 * tan(fov / 2 * degree) / 9, area = 3.14159265358979323846 * pow(tan(0.2665 * degree) / pixel, 2);
+    for (int k = 0; k < 4; k++) {
+        sea_scene(waves);
+        for (int i = 0; i < SEA_WAVES; i++)
+            waves[i].amplitude *= amplitudes[k / 2];
+        mgt_quality_init(&scene.quality, sizeof scene.quality);
+        scene.quality.method = calm_methods[k % 2];
+        double sum = 0, least = 1e9, most = 0;
+        for (int i = 0; i < 16; i++) {
+            scene.light.elevation_deg = elevation + i % 4 * step / 4;
+            scene.light.azimuth_deg = i / 4 * step / 4 / cos(elevation * degree);
+            const double now = coverage_sum(context, &scene) / area;
+            sum += now / 16;
+            least = fmin(least, now);
+            most = fmax(most, now);
+        }
+        print_message("  calm water, method %d, waves %.2f: %.3f of the sun's area, %.3f to %.3f\n", calm_methods[k % 2], amplitudes[k / 2], sum, least, most);
+        assert_true(fabs(sum - 1) < 0.1 && least > 0.2 && most < 2.5);
+    }
+    mgt_context_destroy(context);
 }
 
 /* From under water methods with shadowing see the sun as the others do. */
@@ -352,6 +387,7 @@ static void the_sun_is_seen_from_below(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(calm_water_mirrors_the_whole_sun),
         cmocka_unit_test(the_sun_is_seen_from_below),
         cmocka_unit_test(every_scene_renders),
         cmocka_unit_test(threads_lanes_and_crops_change_nothing),
