@@ -17,6 +17,12 @@ const mgt_light light_defaults[] =
 
 bool light_is_moon(const mgt_light *light) { return light->body == MGT_SOURCE_MOON; }
 
+double light_shining_radius_deg(const mgt_light *light)
+{
+    const bool shines = light->radiance[0] > 0 || light->radiance[1] > 0 || light->radiance[2] > 0;
+    return shines ? light->angular_radius_deg : 0;
+}
+
 static void decide_body(void *parent)
 {
     mgt_light *light = parent;

@@ -78,6 +78,9 @@ extern const mgt_light light_defaults[];
 
 bool light_is_moon(const mgt_light *light);
 
+/* Radius of the light's disk, degrees; 0: it has no radiance. */
+double light_shining_radius_deg(const mgt_light *light);
+
 extern const field_row image_rows[];  /* rows of an mgt_image without its crop */
 extern const field_row light_rows[];  /* rows of an mgt_light */
 extern const field_row sky_rows[];    /* rows of an mgt_sky */

@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "params/scene_rows.h"
 #include "params/waves.h"
 #include "scene/scene_path.h"
 #include "scene/scene_read.h"
@@ -70,16 +71,15 @@ static const double SMALL_DISK = 1, SHOWN_DISK = 2;
 /* Under a black sky the automatic exposure follows from the light's radiance, and glitter is as bright as the disk is large. */
 static bool warn_of_exposure(const scene_tree *tree, const scene_values *values, scene_error *warning)
 {
-    const mgt_light *light = &values->light;
-    const bool shines = light->radiance[0] > 0 || light->radiance[1] > 0 || light->radiance[2] > 0;
+    const double radius_deg = light_shining_radius_deg(&values->light);
     const tree_node *model = tree_get(tree_get(tree->root, "sky"), "model");
-    if (values->sky.look.model != MGT_SKY_BLACK || !values->post.exposure.automatic || values->post.exposure_offset != 0 || !shines ||
-        light->angular_radius_deg >= SMALL_DISK || model == NULL)
+    if (values->sky.look.model != MGT_SKY_BLACK || !values->post.exposure.automatic || values->post.exposure_offset != 0 || radius_deg == 0 ||
+        radius_deg >= SMALL_DISK || model == NULL)
         return true;
     return tree_error(tree, model->source, model->place, warning,
                       "under a black sky the exposure follows from the light alone: glitter of a disk of %.3g degrees is displayed nearly black; "
                       "post.exposure_offset: %.2g shows it as bright as that of a disk of %g degrees",
-                      light->angular_radius_deg, 2 * log2(SHOWN_DISK / light->angular_radius_deg), SHOWN_DISK);
+                      radius_deg, 2 * log2(SHOWN_DISK / radius_deg), SHOWN_DISK);
 }
 
 static const tree_node *camera_node(const scene_tree *tree)

@@ -345,6 +345,12 @@ static void scales_grow_with_what_is_unresolved(void **state)
         for (int parts = 0; parts < 2; parts++) {
             b->tile.data.grazing = grazing;
             b->tile.data.parts = parts;
+            /* Grazing water of three octaves is of one scale, whatever a pixel leaves unresolved of it. */
+            static const float octaves[] = {2, 3, 5, 9}, shares[][4] = {{0, 0, 0.4f, 1}, {0, 0, 0.6f, 1}};
+            for (int i = 0; i < 4; i++) {
+                b->tile.data.octaves = octaves[i];
+                assert_float_equal(scales_power(&b->cx, vec3(0, 0.2f, 1), 0.05f, 5), grazing ? 0.8f * shares[parts][i] : 1.0f, 1e-6f);
+            }
             float before_part[11] = {0};
             for (int p = 0; p <= 10; p++)
                 for (int a = 0; a <= 10; a++) {
