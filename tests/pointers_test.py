@@ -4,7 +4,8 @@
 
 usage: pointers_test.py SOURCE_DIR
 
-Read are words between backticks: "`NAME`, `NAME` in `FILE`" where FILE is the end of a path in src/ or include/; `NAME_test`; and names of kernels and shaders."""
+Read are words between backticks: "`NAME`, `NAME` in `FILE`" where FILE is the end of a path in src/ or include/; `NAME_test`; and
+names of kernels and shaders."""
 import glob
 import os
 import re

@@ -794,9 +794,7 @@ int main(void)
         cmocka_unit_test(the_first_draw_buffer_counts), cmocka_unit_test(full_stacks_of_debug_groups),
     };
     engine e;
-    if (!headless_gl_start())
-        return 77;
-    if (engine_start(&e, DEPTH_STANDARD, WIDTH, HEIGHT, eglGetProcAddress) == MGT_ERROR_UNAVAILABLE)
+    if (!headless_gl_start() || engine_start(&e, DEPTH_STANDARD, WIDTH, HEIGHT, eglGetProcAddress) == MGT_ERROR_UNAVAILABLE)
         return 77;
     engine_stop(&e);
     return cmocka_run_group_tests(tests, NULL, NULL);
