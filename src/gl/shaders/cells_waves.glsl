@@ -43,5 +43,5 @@ ViewData set_view(int size)
     vec4 d = uintBitsToFloat(wave_sets[at + 3]), f = uintBitsToFloat(wave_sets[at + 4]);
     uvec4 e = wave_sets[at + 4], g = wave_sets[at + 5];
     CameraRays rays = CameraRays(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w);
-    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), uintBitsToFloat(g.y), 0.0f, 0.0f);
+    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), uintBitsToFloat(g.y), uintBitsToFloat(g.z), 0.0f);
 }
