@@ -527,8 +527,7 @@ static void default_framebuffer(void **state)
 
 /* ---- what a frame costs the host ------------------------------------------------------------------------- */
 
-/* All that a host can draw but leadr, which is lean with another kernel; podee-* on its second visit with sums in place of its Gaussian, before it has the
- * tables of kernels, and with kernels on its third. */
+/* All that a host can draw but leadr, which is lean with another kernel. podee-pixel comes again with sums, before it has tables of kernels, and with these. */
 static const mgt_method methods[] = {MGT_METHOD_MANGATA,     MGT_METHOD_NONE,        MGT_METHOD_SSAA,        MGT_METHOD_PODEE_UNIFORM,
                                      MGT_METHOD_PODEE_PIXEL, MGT_METHOD_MSAA32,      MGT_METHOD_LEAN,        MGT_METHOD_ADAPTIVE,
                                      MGT_METHOD_TOKUYOSHI,   MGT_METHOD_BRUNETON,    MGT_METHOD_FXAA,        MGT_METHOD_TAA,
