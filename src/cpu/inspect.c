@@ -74,18 +74,18 @@ static void map_covariance(const Mirror *m, const double s[3], double out[3])
 
 static void describe_mirror(const struct kernel_context *cx, SlopeState open, SlopeState close, mgt_pixel_info *info)
 {
-    const Mirror *m = &close.mirror;
-    const vec2 r0 = mirror_to_light(cx, open.mirror, sub(open.open, open.mirror.slope)), r1 = mirror_to_light(cx, *m, sub(close.close, m->slope));
+    const Mirror m = light_map(cx, open, close);
+    const LightPath path = light_path(cx, m, open, close);
     const double both[3] = {info->unresolved[0] + info->bend[0] + (double)cx->frame->slope_floor, info->unresolved[1] + info->bend[1],
                             info->unresolved[2] + info->bend[2] + (double)cx->frame->slope_floor};
-    info->mirror_slope[0] = (double)m->slope.x;
-    info->mirror_slope[1] = (double)m->slope.y;
-    info->path[0][0] = (double)r0.x;
-    info->path[0][1] = (double)r0.y;
-    info->path[1][0] = (double)r1.x;
-    info->path[1][1] = (double)r1.y;
+    info->mirror_slope[0] = (double)m.slope.x;
+    info->mirror_slope[1] = (double)m.slope.y;
+    info->path[0][0] = (double)path.open.x;
+    info->path[0][1] = (double)path.open.y;
+    info->path[1][0] = (double)path.close.x;
+    info->path[1][1] = (double)path.close.y;
     info->light_radius = (double)light_radius(cx, 0);
-    map_covariance(m, both, info->covariance);
+    map_covariance(&m, both, info->covariance);
 }
 
 /* Adds one of the pixel's `hits` hits to the means. Returns whether it is water. */

@@ -87,6 +87,41 @@ static void jacobian_is_that_of_the_exact_map(void **state)
     expect_below("determinant, relative", determinant, 1e-4);
 }
 
+/* About any slope that shows a wide light the map is exact, and so is its Jacobian. */
+static void map_about_a_slope_is_exact_there(void **state)
+{
+    (void)state;
+    random_state r = {6};
+    double value = 0, largest = 0, back = 0;
+    for (int i = 0; i < 2000; i++) {
+        mirror_case c;
+        make_case(&c, &r, 20);
+        const Mirror m = mirror_of(&c);
+        double s[2] = {(double)m.slope.x + random_range(&r, -0.1, 0.1), (double)m.slope.y + random_range(&r, -0.1, 0.1)}, exact[2], j[2][2];
+        const vec2 at = vec2((float)s[0], (float)s[1]);
+        s[0] = (double)at.x, s[1] = (double)at.y;
+        const vec3 view = vec3((float)c.view[0], (float)c.view[1], (float)c.view[2]);
+        const double facing = c.view[1] - c.view[0] * s[0] - c.view[2] * s[1];
+        if (facing < 0.02 || !mirror_map(c.view, c.light, s, exact) || hypot(exact[0], exact[1]) > 0.5)
+            continue;
+        assert_true(mirror_map_jacobian(c.view, c.light, s, j));
+        const Mirror w = mirror_about(&c.cx, view, m, at);
+        const vec2 ours = mirror_to_light(&c.cx, w, sub(at, w.slope)), slope = slope_from_light(&c.cx, w, ours);
+        const double elements[2][2] = {{(double)w.j.ex, (double)w.j.ez}, {(double)w.j.fx, (double)w.j.fz}};
+        double size = 0, off = 0;
+        for (int k = 0; k < 4; k++) {
+            size = fmax(size, fabs(j[k / 2][k % 2]));
+            off = fmax(off, fabs(elements[k / 2][k % 2] - j[k / 2][k % 2]));
+        }
+        value = fmax(value, hypot((double)ours.x - exact[0], (double)ours.y - exact[1]));
+        back = fmax(back, hypot((double)slope.x - s[0], (double)slope.y - s[1]));
+        largest = fmax(largest, off / size);
+    }
+    expect_below("point of the light plane", value, 1e-5);
+    expect_below("the slope back from it", back, 1e-5);
+    expect_below("Jacobian, of its largest entry", largest, 1e-5);
+}
+
 /* The slope that mirrors the light plane's point r into the eye. */
 static void slope_to(const mirror_case *c, const double e[3], const double f[3], double x, double y, double slope[2])
 {
@@ -236,8 +271,13 @@ static void two_level_weight_is_its_integral(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mirror_slope_is_exact), cmocka_unit_test(jacobian_is_that_of_the_exact_map), cmocka_unit_test(linear_map_keeps_the_probability),
-        cmocka_unit_test(fresnel_is_exact),      cmocka_unit_test(one_level_weight_is_smiths),        cmocka_unit_test(two_level_weight_is_its_integral),
+        cmocka_unit_test(mirror_slope_is_exact),
+        cmocka_unit_test(jacobian_is_that_of_the_exact_map),
+        cmocka_unit_test(linear_map_keeps_the_probability),
+        cmocka_unit_test(fresnel_is_exact),
+        cmocka_unit_test(one_level_weight_is_smiths),
+        cmocka_unit_test(two_level_weight_is_its_integral),
+        cmocka_unit_test(map_about_a_slope_is_exact_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
