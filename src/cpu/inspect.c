@@ -78,8 +78,8 @@ static void describe_mirror(const struct kernel_context *cx, SlopeState open, Sl
     const LightPath path = light_path(cx, m, open, close);
     const double both[3] = {info->unresolved[0] + info->bend[0] + (double)cx->frame->slope_floor, info->unresolved[1] + info->bend[1],
                             info->unresolved[2] + info->bend[2] + (double)cx->frame->slope_floor};
-    info->mirror_slope[0] = (double)m.slope.x;
-    info->mirror_slope[1] = (double)m.slope.y;
+    info->mirror_slope[0] = (double)close.mirror.slope.x;
+    info->mirror_slope[1] = (double)close.mirror.slope.y;
     info->path[0][0] = (double)path.open.x;
     info->path[0][1] = (double)path.open.y;
     info->path[1][0] = (double)path.close.x;

@@ -310,7 +310,8 @@ static double unresolved_error(double radius_deg, double *median)
     return quantile(error, count, 0.9);
 }
 
-/* One octave: the weight is Smith's alone. The lattice of slopes is off by about half a per cent itself. */
+/* One octave: the weight is Smith's alone. The lattice of slopes is off by about half a per cent itself. Of a light of 20 degrees most pixels show what they
+ * should within a twentieth; those at its edge, which show a thousandth of it, are off by up to a third. */
 static void unresolved_sea_mirrors_its_probability(void **state)
 {
     (void)state;
