@@ -369,14 +369,15 @@ static void spread_ray(const light_part *p, float spread[3])
         spread[k] = (float)sum[k];
 }
 
-static void end_part(const path_traced *t, path_traced_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met)
+/* `first`: the part comes from the camera. */
+static void end_part(const path_traced *t, path_traced_scratch *s, light_part p, const trace_ray *ray, const trace_hit *met, bool first)
 {
     batch_hits *e = &s->ends;
     const size_t i = e->count++;
     const double n = t->job.scene->water.index_of_refraction;
     const bool wet = t->job.camera.position[1] < 0;
     if (met->triangle >= 0)
-        advance(&p, (double)met->along, false);
+        advance(&p, (double)met->along, first);
     e->triangle[i] = met->triangle;
     for (int k = 0; k < 3; k++) {
         e->position[k][i] = met->triangle >= 0 ? ray->origin[k] + met->along * ray->direction[k] : 0;
@@ -427,7 +428,7 @@ static void follow_parts(const path_traced *t, path_traced_scratch *s)
             if (again && s->batch[i].events < PATH_MOST_EVENTS)
                 split_part(t, s, s->batch[i], &s->surface[i]);
             else
-                end_part(t, s, s->batch[i], &s->rays[i], &s->met[i]);
+                end_part(t, s, s->batch[i], &s->rays[i], &s->met[i], false);
         }
         shade_ends(t, s);
     }
@@ -478,7 +479,33 @@ static void write_mean(const double sum[3][BATCH], const uint32_t *count, float 
     }
 }
 
-void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, path_traced_pixels *out)
+/* Fills `through`, `mirror` and out->object of pixels that path_traced_pixels.object describes. out->water is known. */
+static void see_waterlines(const path_traced *t, path_traced_scratch *s, uint32_t tile_x, uint32_t tile_y, const float *front, path_traced_pixels *out)
+{
+    bool any = false;
+    for (size_t i = 0; i < BATCH; i++) {
+        out->object[i] = out->water[i] == 0 && front[i] < 1;
+        any = any || out->object[i] > 0;
+    }
+    if (!any)
+        return;
+    aim_sample(t, s, tile_x, tile_y, 0);
+    look_ahead(t, s, BATCH, true);
+    for (size_t i = 0; i < BATCH; i++) {
+        out->object[i] = out->object[i] > 0 && s->met[i].triangle >= 0;
+        if (!(out->object[i] > 0))
+            continue;
+        s->batch[i].share = 1;
+        end_part(t, s, s->batch[i], &s->rays[i], &s->met[i], true);
+        s->samples[i] = 1;
+    }
+    shade_ends(t, s);
+    for (size_t i = 0; i < BATCH; i++)
+        for (int k = 0; k < 3 && out->object[i] > 0; k++)
+            s->mirror[k][i] = s->through[k][i];
+}
+
+void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, const float *front, path_traced_pixels *out)
 {
     path_traced_scratch *s = truth->scratch[worker];
     const uint32_t samples = truth->side * truth->side;
@@ -496,6 +523,7 @@ void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y
     }
     for (size_t i = 0; i < BATCH; i++)
         out->water[i] = (float)s->samples[i] / (float)samples;
+    see_waterlines(truth, s, tile_x, tile_y, front, out);
     write_mean((const double(*)[BATCH])s->through, s->samples, out->red, out->green, out->blue);
     if (mirrored)
         write_mean((const double(*)[BATCH])s->mirror, s->samples, out->mirrored_red, out->mirrored_green, out->mirrored_blue);

@@ -39,6 +39,9 @@ typedef struct path_traced_pixels {
     float red[TILE_PIXELS], green[TILE_PIXELS], blue[TILE_PIXELS];
     /* Mean radiance that the surface mirrors, before the factor of Fresnel's reflectance, over the same samples. Set if `mirrored` is true. */
     float mirrored_red[TILE_PIXELS], mirrored_green[TILE_PIXELS], mirrored_blue[TILE_PIXELS];
+    /* 1: no sample meets the surface before an object, although `front` says that objects do not hide the water of the whole pixel. So the pixel lies on a
+       waterline, and both radiances are that of the object which its first sample meets. 0: other pixels. */
+    float object[TILE_PIXELS];
 } path_traced_pixels;
 
 typedef struct path_traced path_traced;
@@ -47,9 +50,9 @@ typedef struct path_traced path_traced;
 mgt_status path_traced_create(path_traced **truth, const path_traced_job *job);
 void path_traced_free(path_traced *truth); /* NULL is allowed */
 
-/* Fills *out for the tile (tile_x, tile_y) of the lattice, also beyond the image. `mirrored`: the mirrored radiance is wanted, too. One call per worker at a
- * time. The bits depend on the tile alone. */
-void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, path_traced_pixels *out);
+/* Fills *out for the tile (tile_x, tile_y) of the lattice, also beyond the image. `mirrored`: the mirrored radiance is wanted, too. `front`: fraction of each
+ * pixel that is hidden by objects in front of the water. One call per worker at a time. The bits depend on the tile alone. */
+void path_traced_tile(const path_traced *truth, uint32_t tile_x, uint32_t tile_y, uint32_t worker, bool mirrored, const float *front, path_traced_pixels *out);
 
 enum { SEEN_SKY = -1, SEEN_WATER = -2 };
 

@@ -203,12 +203,12 @@ static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
 static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_y, uint32_t worker, tile_objects *o)
 {
     const bool mirrored = r->mirrors;
-    path_traced_tile(r->truth, tile_x, tile_y, worker, mirrored, &o->truth);
+    path_traced_tile(r->truth, tile_x, tile_y, worker, mirrored, o->share, &o->truth);
     const path_traced_pixels *t = &o->truth;
     for (size_t i = 0; i < TILE_PIXELS; i++) {
         o->light.through[0][i] = t->red[i], o->light.through[1][i] = t->green[i], o->light.through[2][i] = t->blue[i];
         o->error[i] = 0;
-        if (!mirrored || t->water[i] == 0)
+        if (!mirrored || (t->water[i] == 0 && t->object[i] == 0))
             continue;
         o->light.mirrored[0][i] = t->mirrored_red[i], o->light.mirrored[1][i] = t->mirrored_green[i], o->light.mirrored[2][i] = t->mirrored_blue[i];
         o->light.share[i] = 1;
@@ -219,7 +219,7 @@ static void see_path_traced(const refraction *r, uint32_t tile_x, uint32_t tile_
 static void see_deep_for_truth(tile_objects *o)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++)
-        if (o->truth.water[i] == 0 && o->deep_known[i] > 0) {
+        if (o->truth.water[i] == 0 && o->truth.object[i] == 0 && o->deep_known[i] > 0) {
             for (int k = 0; k < 3; k++)
                 o->light.through[k][i] = o->light.mirrored[k][i] = o->light.deep[k][i];
             o->light.share[i] = 1;

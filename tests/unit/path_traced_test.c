@@ -89,15 +89,23 @@ static path_traced *truth_of(const setup *s, const answer_kind *what, mgt_isa is
     return truth;
 }
 
-static path_traced_pixels *render(const setup *s, answer_kind what, mgt_isa isa, uint32_t worker)
+static path_traced_pixels *render_behind(const setup *s, answer_kind what, mgt_isa isa, uint32_t worker, const float front[TILE_PIXELS])
 {
     path_traced *truth = truth_of(s, &what, isa, worker + 1);
     path_traced_pixels *tiles = calloc(COLUMNS * ROWS, sizeof *tiles);
     assert_non_null(tiles);
     for (uint32_t i = 0; i < COLUMNS * ROWS; i++)
-        path_traced_tile(truth, i % COLUMNS, i / COLUMNS, worker, true, &tiles[i]);
+        path_traced_tile(truth, i % COLUMNS, i / COLUMNS, worker, true, front, &tiles[i]);
     path_traced_free(truth);
     return tiles;
+}
+
+static path_traced_pixels *render(const setup *s, answer_kind what, mgt_isa isa, uint32_t worker)
+{
+    float hidden[TILE_PIXELS];
+    for (int i = 0; i < TILE_PIXELS; i++)
+        hidden[i] = 1;
+    return render_behind(s, what, isa, worker, hidden);
 }
 
 typedef struct answer {
@@ -191,6 +199,40 @@ static void flat_water_shows_a_floor_where_snell_says(void **state)
                     assert_true(fabs(l.through[k] - exact_lengths[k]) < 1e-6 * (before + after));
             }
         free(places);
+        free(lengths);
+        end(&s);
+    }
+}
+
+/* Where every ray meets an object before the surface, pixels whose water is not wholly hidden show that object. */
+static void waterlines_show_the_object(void **state)
+{
+    (void)state;
+    static const float shown[TILE_PIXELS];
+    for (int below = 0; below < 2; below++) {
+        setup s;
+        begin(&s, below ? -3 : 3, below ? -1 : 1);
+        path_traced_pixels *places = render_behind(&s, TOLD_POSITION, MGT_ISA_AUTO, 0, shown), *hidden = render(&s, TOLD_POSITION, MGT_ISA_AUTO, 0);
+        path_traced_pixels *lengths = render_behind(&s, TOLD_LENGTHS, MGT_ISA_AUTO, 0, shown);
+        int seen = 0;
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++) {
+                double o[3], v[3];
+                camera_ray(&s.scene, x + 0.5, y + 0.5, 0, o, v);
+                const answer a = answer_at(places, x, y), none = answer_at(hidden, x, y), l = answer_at(lengths, x, y);
+                const double reach = ((below ? -1 : 1) - o[1]) / v[1], exact[3] = {o[0] + reach * v[0], below ? -1 : 1, o[2] + reach * v[2]};
+                if (!(reach > 0) || fabs(exact[0] - 3) > 199 || fabs(exact[2] + 7) > 199)
+                    continue;
+                assert_true(a.water == 0 && none.water == 0 && none.through[0] == 0 && none.mirrored[0] == 0);
+                assert_position(&s, a.through, exact, 1e-5 + 2e-7 * reach);
+                assert_position(&s, a.mirrored, exact, 1e-5 + 2e-7 * reach);
+                assert_true(fabs(l.through[0] - reach) < 1e-6 * reach && l.through[1] == 0);
+                assert_true(below ? fabs(l.through[2] - reach) < 1e-6 * reach : l.through[2] == 0);
+                seen++;
+            }
+        assert_true(seen > 300);
+        free(places);
+        free(hidden);
         free(lengths);
         end(&s);
     }
@@ -458,6 +500,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_water_shows_a_floor_where_snell_says),
         cmocka_unit_test(radiance_keeps_the_power_of_a_bundle),
+        cmocka_unit_test(waterlines_show_the_object),
         cmocka_unit_test(snells_window_ends_at_its_angle),
         cmocka_unit_test(waves_bend_rays_at_their_first_hit),
         cmocka_unit_test(footprints_follow_the_rays),
