@@ -3,9 +3,20 @@
 
 const pause = milliseconds => new Promise(resolve => setTimeout(resolve, milliseconds));
 
+// The bytes of a text in base 85: five DIGITS for four bytes, the highest first; r bytes that are left at the end are r + 1 digits.
+function bytesOf(text) {
+  const worth = new Uint8Array(128), words = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
+  Array.from(DIGITS, (digit, i) => { worth[digit.charCodeAt(0)] = i; });
+  for (let at = 0; 5 * at < text.length; at++) {
+    let word = 0;
+    for (let i = 5 * at; i < 5 * at + 5; i++) word = 85 * word + (i < text.length ? worth[text.charCodeAt(i)] : 84);
+    words.setUint32(4 * at, word);
+  }
+  return new Uint8Array(words.buffer, 0, Math.floor(4 * text.length / 5));
+}
+
 async function unpacked() {
-  const bytes = Uint8Array.from(atob(PACKED), c => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const stream = new Blob([bytesOf(PACKED)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const all = await new Response(stream).arrayBuffer();
   const length = new DataView(all).getUint32(0, true);
   return { texts: JSON.parse(new TextDecoder().decode(new Uint8Array(all, 4, length))), module: await WebAssembly.compile(all.slice(4 + length)) };
