@@ -173,8 +173,8 @@ static int print_report(bench *b)
             printf("%s, ", b->info.renderer);
         else
             printf("%s, %u lanes, %u threads, ", mgt_isa_name(b->info.isa), b->info.lanes, b->info.threads);
-        printf("%zu frames each\n%-*s%10s%10s%10s%10s%10s%s\n", runs, width, "method", "median ms", "min ms", "max ms", "fps", "Mpixel/s",
-               b->request->memory ? "       MiB" : "");
+        printf("%zu frame%s each\n%-*s%10s%10s%10s%10s%10s%s\n", runs, runs == 1 ? "" : "s", width, "method", "median ms", "min ms", "max ms", "fps",
+               "Mpixel/s", b->request->memory ? "       MiB" : "");
     }
     for (size_t m = 0; m < b->count; m++) {
         const number_spread seconds = number_spread_of(b->methods[m].seconds, runs);

@@ -76,7 +76,9 @@ static int check_file(const scene_request *r, const char *path, json_t *list)
     else if (code == EXIT_CODE_OK && !r->out.quiet) {
         char name[PATH_MAX];
         scene_copy_line(name, sizeof name, path, strlen(path));
-        printf("%s: ok, %zu waves, %d frames\n", name, scene_file_wave_count(scene), scene_file_frame_count(scene));
+        const size_t waves = scene_file_wave_count(scene);
+        const int frames = scene_file_frame_count(scene);
+        printf("%s: ok, %zu wave%s, %d frame%s\n", name, waves, waves == 1 ? "" : "s", frames, frames == 1 ? "" : "s");
     }
     scene_file_free(scene);
     return code;

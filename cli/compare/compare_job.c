@@ -434,8 +434,9 @@ static void warn_of_missing(const compare_job *job)
 static int print_end(const compare_job *job)
 {
     const compare_request *r = job->request;
-    console_note(&r->out, "%s/report.html: %zu scene%s, %zu methods, %zu frames; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
-                 r->scene_count == 1 ? "" : "s", r->method_count, job->frame_count, (unsigned long long)job->rendered, (unsigned long long)job->kept);
+    console_note(&r->out, "%s/report.html: %zu scene%s, %zu method%s, %zu frame%s; %llu pictures rendered, %llu kept", r->folder, r->scene_count,
+                 r->scene_count == 1 ? "" : "s", r->method_count, r->method_count == 1 ? "" : "s", job->frame_count, job->frame_count == 1 ? "" : "s",
+                 (unsigned long long)job->rendered, (unsigned long long)job->kept);
     warn_of_missing(job);
     char *black = score_black_text(job);
     if (black && black[0])

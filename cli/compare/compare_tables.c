@@ -372,10 +372,10 @@ char *compare_tex_text(const compare_job *job, size_t *size)
         columns += tex_column(job, &score_columns[c]);
     tex_comment(stream, command);
     fprintf(stream,
-            "%% Needs \\usepackage{booktabs}. Against a reference of %s samples a pixel, %zu frames; the best of each scene is bold where it leads by more "
+            "%% Needs \\usepackage{booktabs}. Against a reference of %s samples a pixel, %zu frame%s; the best of each scene is bold where it leads by more "
             "than the\n"
             "%% reference's noise floor, which also sets how many digits are printed.\n",
-            compare_reference_samples(job).text, job->frame_count);
+            compare_reference_samples(job).text, job->frame_count, job->frame_count == 1 ? "" : "s");
     fputs("\\begin{tabular}{lr", stream);
     for (size_t c = 0; c < columns; c++)
         putc('r', stream);

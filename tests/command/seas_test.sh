@@ -21,6 +21,8 @@ for scene in swell measured; do
     expect 0 '' "$MANGATA" scene check $scene.yaml
     works render $scene.yaml -o $scene.png -q "${small[@]}"
 done
+expect 0 '' "$MANGATA" scene check measured.yaml --set time.frames=1
+[[ $(cat stdout.txt) == 'measured.yaml: ok, 1 wave, 1 frame' ]] || fail "$(cat stdout.txt)"
 works render swell.yaml -o high.png -q "${small[@]}" --set 'water.swell[0].height=4'
 differ swell.png high.png
 
