@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A rowing boat that floats on the waves that are rendered: a rigid body moved by mgt_water_query(), frame by frame.
  *   cc buoyancy.c $(pkg-config --cflags --libs mangata) -lm -o buoyancy
- *   ./buoyancy boat_####.ppm        # frame numbers in place of #; ffmpeg -framerate 24 -i boat_%04d.ppm -pix_fmt yuv420p boat.mp4
+ *   ./buoyancy boat_####.ppm        # frame numbers in place of #; docs/buoyancy.md makes a film of them
  *   --size WxH  --frames N  --fps F  --mesh scenes/models/hull.ply
  */
 #include "floating_body.h"
