@@ -81,9 +81,7 @@ file_status picture_check_budget(const char *path, uint64_t width, uint64_t heig
 {
     if (width * height <= pixel_budget())
         return FILE_OK;
-    return file_error_set(error, FILE_BAD, "%s: it has %llu pixels; allowed: %llu, more with %s=%llu in the environment", path,
-                          (unsigned long long)(width * height), (unsigned long long)pixel_budget(), PIXEL_BUDGET_VARIABLE,
-                          (unsigned long long)(width * height));
+    return file_error_set(error, FILE_BAD, "%s: it has %llu pixels; %s", path, (unsigned long long)(width * height), pixel_budget_allowed(width * height).text);
 }
 
 file_status float_image_allocate(float_image *image, const char *path, file_error *error)

@@ -25,10 +25,8 @@ static bool is_within_budget(uint64_t width, uint64_t height, const char *name, 
 {
     const uint64_t own = width * height, all = *pixels + own;
     return all <= pixel_budget() ||
-           model_fault_set(fault, SCENE_ERROR_BAD_SCENE,
-                           "%s: with its %llu pixels the scene's textures have %llu; allowed: %llu, more with %s=%llu in the environment",
-                           scene_file_name(name).text, (unsigned long long)own, (unsigned long long)all, (unsigned long long)pixel_budget(),
-                           PIXEL_BUDGET_VARIABLE, (unsigned long long)all);
+           model_fault_set(fault, SCENE_ERROR_BAD_SCENE, "%s: with its %llu pixels the scene's textures have %llu; %s", scene_file_name(name).text,
+                           (unsigned long long)own, (unsigned long long)all, pixel_budget_allowed(all).text);
 }
 
 /* RGBA, 8 bits each. */

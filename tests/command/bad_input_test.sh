@@ -177,6 +177,12 @@ expect 65 'bad.png' "$MANGATA" diff bad.png bad.png
 works render "$simple" -o whole.exr "${small[@]}" "${null[@]}" --quiet
 head -c 200 whole.exr >short.exr
 expect 65 'short.exr' "$MANGATA" diff whole.exr short.exr
+for wrong in 1e9 64M -1 1000000000000000000; do
+    expect 65 "whole.exr: .* MANGATA_PIXELS=$wrong; allowed: a whole number" env MANGATA_PIXELS=$wrong "$MANGATA" diff whole.exr whole.exr
+done
+expect 65 'whole.exr: .* allowed: 9, more with MANGATA_PIXELS=' env MANGATA_PIXELS=9 "$MANGATA" diff whole.exr whole.exr
+expect 0 '' env MANGATA_PIXELS= "$MANGATA" diff whole.exr whole.exr
+expect 65 'shore.yaml.*png: .* MANGATA_PIXELS=64M; allowed: a whole number' env MANGATA_PIXELS=64M "$MANGATA" scene check "$SOURCE/scenes/shore.yaml"
 expect '64' 'nolayer' "$MANGATA" diff whole.exr whole.exr --layer nolayer
 cp whole.exr other.exr
 expect 66 'missing.exr' "$MANGATA" diff whole.exr other.exr --second-reference missing.exr --metrics texture,specks
