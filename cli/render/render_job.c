@@ -328,6 +328,19 @@ static int render_frame(render_job *job, uint32_t frame, const char *path, mgt_s
     return EXIT_CODE_OK;
 }
 
+/* Adds the exposure to the metadata of a file of displayed colour. */
+static int record_exposure(render_job *job, const mgt_scene *scene, render_record *record)
+{
+    double stops;
+    if (!job->buffer.displayed || job->request->layers[0] != MGT_LAYER_COLOR || job->info.backend == MGT_BACKEND_NULL)
+        return EXIT_CODE_OK;
+    const mgt_status status = mgt_exposure(job->context, scene, &stops);
+    if (status != MGT_OK)
+        return console_library_error(job->context, status);
+    render_record_add_exposure(record, stops);
+    return EXIT_CODE_OK;
+}
+
 static void list_file(render_job *job, const char *path, const char *frames, const sha256_text *hash, bool skipped)
 {
     if (job->files)
@@ -360,6 +373,9 @@ static int render_still(render_job *job, uint32_t frame)
         render_record record;
         file_error error;
         render_record_fill(&record, job->request, &job->info, &hash, number, scene.time, seconds);
+        code = record_exposure(job, &scene, &record);
+        if (code != EXIT_CODE_OK)
+            return code;
         file_status status = job->request->format == PICTURE_SUMS
                                  ? render_sums_write(job, frame, path, &record, &plan.output, &error)
                                  : frame_buffer_write(&job->buffer, job->request, &scene, scene_file_fps(job->scene), path, &record.list, &plan.output, &error);
@@ -427,6 +443,9 @@ static int render_film(render_job *job)
         return code;
     render_record record;
     render_record_fill(&record, r, &job->info, &hash, frames, first.time, -1);
+    code = record_exposure(job, &first, &record);
+    if (code != EXIT_CODE_OK)
+        return code;
     const video_desc desc = {.width = job->buffer.width,
                              .height = job->buffer.height,
                              .frames_per_second = scene_file_fps(job->scene),

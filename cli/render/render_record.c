@@ -172,6 +172,8 @@ void render_record_fill(render_record *record, const render_request *request, co
         add_stamp(record, info, seconds);
 }
 
+void render_record_add_exposure(render_record *record, double stops) { add(record, "exposure", "%s", number_print(stops).text); }
+
 void render_record_fill_sums(render_record *record, const render_request *request, const mgt_image *image, const mgt_context_info *info,
                              const sha256_text *sums_hash, const char *frame)
 {

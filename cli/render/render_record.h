@@ -34,6 +34,9 @@ typedef struct render_record {
 void render_record_fill(render_record *record, const render_request *request, const mgt_context_info *info, const sha256_text *hash, const char *frames,
                         double time, double seconds);
 
+/* Adds the exposure of displayed colour, stops. `post.exposure` of this value gives the same pixels. */
+void render_record_add_exposure(render_record *record, double stops);
+
 /* Fills the metadata by which files of sums of one frame recognise each other. The last entry is the hash. */
 void render_record_fill_sums(render_record *record, const render_request *request, const mgt_image *image, const mgt_context_info *info,
                              const sha256_text *sums_hash, const char *frame);

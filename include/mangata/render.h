@@ -167,6 +167,10 @@ MGT_API mgt_status mgt_render(mgt_context *context, const mgt_scene *scene, cons
  * `target`: MGT_LAYER_COLOR in MGT_FORMAT_RGBA8_SRGB, of the crop. MGT_ERROR_ARGUMENT: a number of `radiance` is another one. */
 MGT_API mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float *radiance, const mgt_target *target);
 
+/* The exposure of the scene's displayed colour, 2^stops per kcd/m²: post.exposure_ev without auto_exposure gives the same colours. The sky that it follows from
+ * is kept for the next frame. On failure *stops is unchanged. */
+MGT_API mgt_status mgt_exposure(mgt_context *context, const mgt_scene *scene, double *stops);
+
 /* ---- sums of samples ------------------------------------------------------------------------------------ */
 
 /* The sums of a pixel fill 12 words. They are six integers of 128 bits, low word first, that count multiples of 2⁻⁵⁶: the sums of red, green and blue

@@ -57,6 +57,23 @@ mgt_status mgt_display(mgt_context *context, const mgt_scene *scene, const float
     return context_enter(context) ? context_leave(context, display(context, scene, radiance, target)) : MGT_ERROR_ARGUMENT;
 }
 
+static mgt_status exposure(mgt_context *context, const mgt_scene *scene, double *stops)
+{
+    void *state = NULL;
+    mgt_scene own;
+    mgt_status status = scene_take(&context->report, &own, scene);
+    if (status == MGT_OK && !stops)
+        status = report_error(&context->report, MGT_ERROR_ARGUMENT, "exposure.stops", "mgt_exposure: stops is NULL");
+    if (status == MGT_OK)
+        status = cpu_state(context, &state);
+    return status == MGT_OK ? cpu_exposure(state, &context->report, &own, stops) : status;
+}
+
+mgt_status mgt_exposure(mgt_context *context, const mgt_scene *scene, double *stops)
+{
+    return context_enter(context) ? context_leave(context, exposure(context, scene, stops)) : MGT_ERROR_ARGUMENT;
+}
+
 /* Takes and checks a scene whose method must have sums, and moves it to sea level. */
 static mgt_status take_summed(mgt_context *context, const mgt_scene *scene, const uint64_t *sums, mgt_scene *own)
 {

@@ -639,6 +639,15 @@ mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, c
     return status;
 }
 
+mgt_status cpu_exposure(void *state, const reporter *r, const mgt_scene *scene, double *stops)
+{
+    const cpu_state *s = state;
+    const mgt_status status = cpu_prepare_sky(state, r, scene);
+    if (status == MGT_OK)
+        *stops = frame_exposure(&scene->post, s->sky);
+    return status;
+}
+
 mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info)
 {
     cpu_state *s = state;

@@ -29,6 +29,7 @@ extern const backend_functions null_backend;
 
 /* Functions that only the CPU backend has; contexts of other backends call them, too. cpu_backend has created `state`. The arguments have been checked. */
 mgt_status cpu_display(void *state, const reporter *r, const mgt_scene *scene, const float *radiance, const mgt_target *target);
+mgt_status cpu_exposure(void *state, const reporter *r, const mgt_scene *scene, double *stops);
 mgt_status cpu_sum(void *state, const reporter *r, const mgt_scene *scene, uint64_t *sums);
 mgt_status cpu_render_sums(void *state, const reporter *r, const mgt_scene *scene, const uint64_t *sums, const mgt_target *targets, size_t count);
 mgt_status cpu_inspect(void *state, const reporter *r, const mgt_scene *scene, uint32_t x, uint32_t y, mgt_pixel_info *info);

@@ -134,6 +134,8 @@ void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
     f->skyline_entries = skyline_span(&f->open, &f->close, f->scene->image.width, f->scene->image.height, data);
 }
 
+double frame_exposure(const mgt_post *post, const sky_state *sky) { return post->exposure_ev + (post->auto_exposure ? sky->exposure_ev : 0); }
+
 void frame_make(const mgt_scene *scene, const sky_state *sky, bool want_color, frame *out)
 {
     memset(out, 0, offsetof(frame, foam)); /* frame_foam_of() sets what is read of `foam` */
@@ -148,8 +150,7 @@ void frame_make(const mgt_scene *scene, const sky_state *sky, bool want_color, f
     d->body_r = (float)body[0];
     d->body_g = (float)body[1];
     d->body_b = (float)body[2];
-    const double ev = scene->post.exposure_ev + (scene->post.auto_exposure ? sky->exposure_ev : 0);
-    d->exposure = (float)exp2(ev);
+    d->exposure = (float)exp2(frame_exposure(&scene->post, sky));
     d->tone_map = (int)scene->post.tone_map;
     d->rod_luminance = scene->night_tint ? (float)sky->adaptation : 0;
     d->stars = scene->stars && scene->sky.model == MGT_SKY_ATMOSPHERE;

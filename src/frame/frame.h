@@ -34,6 +34,9 @@ camera_rays rays_above(const frame *f, const camera_rays *rays);
 /* Sets the frame's cameras at both ends of the shutter. */
 void frame_look(frame *f, const camera_rays *open, const camera_rays *close);
 
+/* Stops that radiance is displayed with: the picture is radiance · 2^stops before the tone map. */
+double frame_exposure(const mgt_post *post, const sky_state *sky);
+
 /* Prepares a frame, which is too large for the stack of a program's thread. `sky` must have been built from the scene, and the scene must outlive the frame. */
 void frame_make(const mgt_scene *scene, const sky_state *sky, bool want_color, frame *out);
 

@@ -63,6 +63,18 @@ hash_of --stamp >/dev/null
 hash_of --method podee-pixel --kernels 9 --path-segments 2 >/dev/null
 [[ $(value method_options) == 'kernels 9 path_segments 2' ]] || fail "options in the sidecar: $(cat hash.pfm.json)"
 
+# The recorded exposure, set by hand, gives the same pixels; linear light has none.
+automatic=(--set post.exposure_offset=1.3 --set sky.model=gradient)
+works render "$simple" -o automatic.y4m --frames 0 "${small[@]}" --quiet "${automatic[@]}"
+stops=$("$JSON_GET" exposure <automatic.y4m.json)
+works render "$simple" -o fixed.y4m --frames 0 "${small[@]}" --quiet "${automatic[@]}" --set post.exposure="$stops" --set post.exposure_offset=0
+same automatic.y4m fixed.y4m
+[[ -n $stops && $("$JSON_GET" exposure <fixed.y4m.json) == "$stops" ]] || fail "the exposure is '$stops': $(cat fixed.y4m.json)"
+works render "$simple" -o fixed.png "${small[@]}" --quiet --set post.exposure=-2.5
+grep -aqP 'exposure\x00-2\.5' fixed.png || fail "the PNG has no exposure"
+works render "$simple" -o linear.pfm "${small[@]}" --quiet
+[[ -z $("$JSON_GET" exposure <linear.pfm.json 2>/dev/null) ]] || fail "linear light has an exposure: $(cat linear.pfm.json)"
+
 # Nothing is rendered again when it is there; anything else is refused.
 works render "$simple" -o s_##.png --frames 0-3 "${small[@]}" "${null[@]}" --quiet
 rm s_02.png

@@ -304,10 +304,39 @@ static void displayed_radiance_is_what_render_displays(void **state)
     mgt_context_destroy(other);
 }
 
+static void exposure_set_by_hand_displays_the_same(void **state)
+{
+    (void)state;
+    static uint8_t automatic[PIXELS * 4], fixed[PIXELS * 4];
+    mgt_context *context = make_context(MGT_BACKEND_CPU), *other = make_context(MGT_BACKEND_NULL);
+    mgt_scene scene = calm_scene();
+    scene.sky.model = MGT_SKY_GRADIENT; /* soon built */
+    scene.post.exposure_ev = 0.7;
+    render(context, &scene, MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, automatic);
+    double stops = 0, again = 0;
+    assert_int_equal(mgt_exposure(context, &scene, &stops), MGT_OK);
+    assert_int_equal(mgt_exposure(other, &scene, &again), MGT_OK);
+    assert_true(stops == again && stops != 0.7);
+    scene.post.auto_exposure = false;
+    scene.post.exposure_ev = stops;
+    render(context, &scene, MGT_LAYER_COLOR, MGT_FORMAT_RGBA8_SRGB, fixed);
+    assert_memory_equal(automatic, fixed, sizeof fixed);
+    assert_int_equal(mgt_exposure(context, &scene, &again), MGT_OK);
+    assert_true(again == stops);
+    assert_int_equal(mgt_exposure(context, &scene, NULL), MGT_ERROR_ARGUMENT);
+    assert_int_equal(mgt_exposure(NULL, &scene, &again), MGT_ERROR_ARGUMENT);
+    scene.post.exposure_ev = NAN;
+    assert_int_equal(mgt_exposure(context, &scene, &again), MGT_ERROR_SCENE);
+    assert_true(again == stops);
+    mgt_context_destroy(context);
+    mgt_context_destroy(other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_are_the_frames),
+        cmocka_unit_test(exposure_set_by_hand_displays_the_same),
         cmocka_unit_test(foam_and_air_are_the_frames),
         cmocka_unit_test(hits_lie_on_the_water_and_slopes_are_its_own),
         cmocka_unit_test(the_path_is_that_of_the_mirrored_view),
