@@ -38,6 +38,8 @@ int main(int argc, char **argv)
 
     FILE *file = status != MGT_OK ? NULL : argc > 1 ? fopen(argv[1], "wb") : stdout;
     int written = 0;
+    if (status == MGT_OK && !file)
+        perror(argv[1]);
     if (file) {
         fprintf(file, "P6\n%u %u\n255\n", scene.image.width, scene.image.height);
         for (size_t i = 0; i < pixels; i++)
