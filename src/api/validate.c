@@ -198,11 +198,29 @@ static bool layer_takes(mgt_layer layer, mgt_format format)
 
 size_t stride_length(ptrdiff_t stride) { return stride < 0 ? 0 - (size_t)stride : (size_t)stride; }
 
+/* The formats that take a layer, in words. */
+static const char *formats_of(mgt_layer layer)
+{
+    if (mgt_layer_channels(layer) == 1)
+        return "r32f";
+    return layer == MGT_LAYER_COLOR ? "rgb32f, rgba32f or rgba8_srgb" : "rgb32f or rgba32f";
+}
+
+static mgt_status check_format(const reporter *r, const mgt_target *target, size_t index)
+{
+    if (!mgt_layer_name(target->layer))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer is %d, which names no layer", index, (int)target->layer);
+    if (!mgt_format_name(target->format))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: format is %d, which names no format", index, (int)target->format);
+    if (!layer_takes(target->layer, target->format))
+        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %s cannot be written in format %s; allowed is %s", index,
+                            mgt_layer_name(target->layer), mgt_format_name(target->format), formats_of(target->layer));
+    return MGT_OK;
+}
+
 static mgt_status validate_target(const reporter *r, const region *area, const mgt_target *target, size_t index)
 {
-    if (!layer_takes(target->layer, target->format))
-        return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: layer %d cannot be written in format %d", index, (int)target->layer,
-                            (int)target->format);
+    TRY(check_format(r, target, index));
     if (!target->pixels)
         return report_error(r, MGT_ERROR_ARGUMENT, "render.target", "target %zu: pixels is NULL", index);
     const size_t row = format_size(target->format) * area->width;

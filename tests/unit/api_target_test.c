@@ -293,9 +293,11 @@ static void bad_targets_are_refused(void **state)
             for (int k = 0; k < FORMATS; k++)
                 legal |= (int)all_formats[k].layer == layer && (int)all_formats[k].format == format;
             if (!legal)
-                refused(context, &scene, &t, 1, "format");
+                refused(context, &scene, &t, 1, layer < 0 || layer > MGT_LAYER_FOAM ? "layer" : "format");
         }
-    mgt_target t = good;
+    mgt_target t = sea_target(MGT_LAYER_DEPTH, MGT_FORMAT_RGBA8_SRGB, pixels, 0);
+    refused(context, &scene, &t, 1, "depth cannot be written in format rgba8_srgb; allowed is r32f");
+    t = good;
     t.pixels = NULL;
     refused(context, &scene, &t, 1, "NULL");
     t = good;
