@@ -2,7 +2,7 @@
  *
  * Where the far water ends. Under water both sides of the horizon show the water's own light, whether the camera rests or moves, by traced rays as well.
  * Above, what the water mirrors of a far wall has the air's light, water of few octaves mirrors as much of the sky as brute force says,
- * and a sun on the horizon is not mirrored beside itself.
+ * and a low light is mirrored only before itself.
  */
 #include "unit/api_sea.h"
 
@@ -196,10 +196,10 @@ static void few_octaves_mirror_the_sky(void **state)
     mgt_context_destroy(context);
 }
 
-/* ---- a light on the horizon ---- */
+/* ---- a low light ---- */
 
-/* The sun stands on the horizon, 33 degrees to the side: no water there has a slope that mirrors it. */
-static void suns_on_the_horizon_stay_aside(void **state)
+/* No water has a slope that mirrors a sun on the horizon 33 degrees to the side, nor a wide light behind the camera. */
+static void low_lights_stay_aside(void **state)
 {
     (void)state;
     static const char evening[] = "mangata: 1\n"
@@ -207,21 +207,24 @@ static void suns_on_the_horizon_stay_aside(void **state)
                                   "camera: {position: [0, 3, 0], target: [0, 3, -10], fov_y_deg: 6.6}\n"
                                   "light: {elevation_deg: 0.05, azimuth_deg: 33}\n"
                                   "water: {wind: 6}\n";
+    static const char *const behind[] = {"light={elevation_deg: 5, azimuth_deg: 180, angular_radius_deg: 15}", "camera.fov_y_deg=30", "water.wind=2"};
+    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI, MGT_METHOD_TNDF, MGT_METHOD_GGX_MOMENTS};
     static float coverage[PIXELS];
     mgt_context *context = sea_context(2, MGT_ISA_AUTO);
-    text_scene v = text_scene_read(evening, NULL, 0);
-    static const mgt_method methods[] = {MGT_METHOD_MANGATA, MGT_METHOD_LEAN, MGT_METHOD_LEADR, MGT_METHOD_TOKUYOSHI, MGT_METHOD_TNDF, MGT_METHOD_GGX_MOMENTS};
-    for (int i = 0; i < 6; i++) {
-        v.scene.quality.method = methods[i];
+    text_scene scenes[2] = {text_scene_read(evening, NULL, 0), text_scene_read(evening, behind, 3)};
+    for (int i = 0; i < 7; i++) {
+        text_scene *v = &scenes[i == 6];
+        v->scene.quality.method = methods[i % 6];
         const mgt_target target = sea_target(MGT_LAYER_COVERAGE, MGT_FORMAT_R32F, coverage, 0);
-        sea_render(context, &v.scene, &target, 1);
+        sea_render(context, &v->scene, &target, 1);
         float most = 0;
         for (int p = 0; p < PIXELS; p++)
             most = fmaxf(most, coverage[p]);
-        print_message("  method %d: coverage %g at most\n", methods[i], (double)most);
+        print_message("  %s, method %d: coverage %g at most\n", i == 6 ? "a wide light behind" : "a sun aside", methods[i % 6], (double)most);
         assert_true(most < 1e-4f);
     }
-    scene_file_free(v.file);
+    scene_file_free(scenes[0].file);
+    scene_file_free(scenes[1].file);
     mgt_context_destroy(context);
 }
 
@@ -229,7 +232,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_sides_are_the_same), cmocka_unit_test(traced_rows_have_no_gap),    cmocka_unit_test(moving_horizons_are_means),
-        cmocka_unit_test(mirrored_walls_have_air), cmocka_unit_test(few_octaves_mirror_the_sky), cmocka_unit_test(suns_on_the_horizon_stay_aside),
+        cmocka_unit_test(mirrored_walls_have_air), cmocka_unit_test(few_octaves_mirror_the_sky), cmocka_unit_test(low_lights_stay_aside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -116,7 +116,7 @@ static void light_point_is_the_exact_map(void **state)
     expect_below("its Jacobian, of the largest entry", jacobian, 1e-5);
 }
 
-/* About any slope that shows the light the linear map has its point and its Jacobian. About a slope that the eye sees from behind it is the map about s_h. */
+/* About any slope that shows the light the linear map has its point and its Jacobian. About a slope that the eye sees from behind there is no light. */
 static void map_about_a_slope_meets_it(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void map_about_a_slope_meets_it(void **state)
         const LightPoint to = light_point(&c.cx, view, at);
         const float behind = 2 * view.y / (view.x * view.x + view.z * view.z);
         const Mirror about = mirror_about(&c.cx, view, m, at), hidden = mirror_about(&c.cx, view, m, vec2(behind * view.x, behind * view.z));
-        assert_memory_equal(&hidden, &m, sizeof m);
+        assert_true(hidden.possible == 0);
         if (to.ahead < 0.2f || hypot((double)to.position.x, (double)to.position.y) > 0.5)
             continue;
         const vec2 point = mirror_to_light(&c.cx, about, sub(at, about.slope)), slope = slope_from_light(&c.cx, about, point);
