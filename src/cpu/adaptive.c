@@ -48,7 +48,7 @@ static FrameData sort_cells(const refinement *f, size_t tile, int across, int do
     const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
     if (f->moves)
         sort_set(f, tile, parts->sets[part], across, down, &s->open);
-    s->close.data.parts = s->open.data.parts = across + down > 0 && !data.sky_black;
+    s->close.data.parts = s->open.data.parts = across + down > 0 && !data.sky_black ? 1 << down : 0;
     if (f->moves)
         tile_join_reach(s);
     if (across + down == 0)

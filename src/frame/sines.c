@@ -122,11 +122,13 @@ static double octaves_of(double slope_variance, double octave, double octave_squ
 void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at, wave_set *set)
 {
     const slope_covariance covariance = covariance_of(water);
-    double variance = 0, slope_variance = 0, octave = 0, octave_squared = 0;
+    double variance = 0, slope_variance = 0, octave = 0, octave_squared = 0, heave = 0;
     for (size_t i = water->wave_count; i-- > 0;) { /* the smallest wave first: lesser_variance sums up the smaller ones */
         const mgt_wave *w = &water->waves[order[i]];
         SortData s = sort_data(w, at);
         set->data[i] = wave_data(w, at.turns != 0 ? -(double)water->choppiness : (double)water->choppiness, at.half, &covariance);
+        const double change = 2 * w->amplitude * sin(w->omega * at.half);
+        heave += change * change / 2;
         variance += w->amplitude * w->amplitude / 2;
         const double k_squared = w->kx * w->kx + w->kz * w->kz, slopes = w->amplitude * w->amplitude * k_squared / 2;
         slope_variance += slopes;
@@ -140,6 +142,7 @@ void sines_place(const mgt_water *water, const uint16_t *order, wave_meeting at,
     set->view.displacement = (float)(4 * sqrt(variance));
     set->view.slope_deviation = (float)sqrt(slope_variance);
     set->view.octaves = (float)octaves_of(slope_variance, octave, octave_squared);
+    set->view.heave = (float)sqrt(heave);
     set->view.pressed = (float)sines_pressed(water);
     set->view.wave_count = (int)water->wave_count;
 }

@@ -132,7 +132,7 @@ static void looked_up_moments_are_unbiased(void **state)
         /* A pixel from 2 cm to 6 m long, up to 20 times as long as wide, in any direction. */
         const double length = 0.02 * pow(300, kind / 3.0), aspect = kind == 0 ? 1 : 20, angle = 0.7 * kind;
         const Footprint p = {vec2((float)(length / aspect * cos(angle)), (float)(length / aspect * sin(angle))),
-                             vec2((float)(-length * sin(angle)), (float)(length * cos(angle)))};
+                             vec2((float)(-length * sin(angle)), (float)(length * cos(angle))), vec2(0, 0)};
         const int count = 20000;
         double mx = 0, mz = 0, vx = 0, vz = 0;
         for (int k = 0; k < count; k++) {

@@ -146,13 +146,13 @@ static void the_shutters_ends_are_the_surface_then(void **state)
     scene.shutter = 1.0 / 240;
     kernel_bench *b = kernel_bench_create(&scene);
     kernel_bench_tile(b, true, false, 320, 300);
-    const Footprint p = {{1e-4f, 0}, {0, 1e-4f}};
+    const Footprint p = {{1e-4f, 0}, {0, 1e-4f}, {0, 0}};
     double slope = 0, moved = 0, height = 0, rose = 0;
     for (int i = 0; i < 300; i++) {
         const float x = (float)random_range(&r, -5, 5), z = (float)random_range(&r, -5, 5);
         const double at[2] = {scene.camera.position[0] + (double)b->tile.data.origin_x + (double)x,
                               scene.camera.position[2] + (double)b->tile.data.origin_z + (double)z};
-        const Surface s = surface_filtered(&b->cx, x, z, p, vec2(0, 0));
+        const Surface s = surface_filtered(&b->cx, vec3(0, -1, 0), 1, x, z, p, vec2(0, 0));
         const water_point close = water_surface(&scene.water, at[0], at[1], scene.time),
                           open = water_surface(&scene.water, at[0], at[1], scene.time - scene.shutter);
         slope += pow(2 * (double)s.slope_odd.x - (open.slope[0] - close.slope[0]), 2) + pow(2 * (double)s.slope_odd.y - (open.slope[1] - close.slope[1]), 2);

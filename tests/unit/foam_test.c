@@ -122,7 +122,7 @@ static void patterns_cover_their_share(void **state)
             double patches = 0, lace = 0;
             const int count = 20000;
             const float s = (float)sides[side];
-            const Footprint p = {{s, 0}, {0, s}};
+            const Footprint p = {{s, 0}, {0, s}, {0, 0}};
             for (int i = 0; i < count; i++) {
                 const float x = (float)random_range(&r, -300, 300), z = (float)random_range(&r, -300, 300);
                 patches += (double)foam_patches(&b->cx, foam_field(&b->cx, 0, x, z, p), shares[k]) / count;
@@ -144,7 +144,7 @@ static void kernels_agree_with_double_precision(void **state)
     const mgt_scene scene = foam_scene(waves, 0.1f, 0.2);
     kernel_bench *b = foam_bench(&scene, false);
     const foam_sea *sea = &b->frame.foam.sea;
-    const Footprint none = {{0, 0}, {0, 0}};
+    const Footprint none = {{0, 0}, {0, 0}, {0, 0}};
     random_state r = {9};
     double worst = 0, mean = 0;
     const int count = 4000;
@@ -174,7 +174,7 @@ static void footprints_keep_the_share(void **state)
         random_state r = {11};
         double area = 0, covered = 0;
         const float s = (float)sides[side];
-        const Footprint p = {{s, 0}, {0, s}};
+        const Footprint p = {{s, 0}, {0, s}, {0, 0}};
         for (int i = 0; i < 30000; i++) {
             const float x = (float)random_range(&r, -2000, 2000), z = (float)random_range(&r, -2000, 2000);
             const FoamShares f = foam_shares(&b->cx, x, z, p, foam_sight_even(&b->cx));
@@ -199,7 +199,7 @@ static void folds_give_numbers(void **state)
     random_state r = {13};
     for (int i = 0; i < 20000; i++) {
         const float s = (float)exp(random_range(&r, -6, 6)), x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
-        const Footprint p = {{s, 0}, {0, 2 * s}};
+        const Footprint p = {{s, 0}, {0, 2 * s}, {0, 0}};
         const vec3 view = {0.6f, (float)random_range(&r, 0.001, 0.8), 0.2f};
         const FoamSight sight = foam_sight(&b->cx, view, (vec2){0.3f, -0.2f}, (Symmetric){0.2f, 0.01f, 0.3f});
         const Foam foam = foam_patterned(&b->cx, foam_shares(&b->cx, x, z, p, sight), x, z, p);
@@ -223,7 +223,7 @@ static void whole_waves_need_no_split(void **state)
     for (int side = 0; side < 3; side++) {
         random_state r = {21};
         const float s = (float)sides[side];
-        const Footprint p = {{s, 0}, {0, s}};
+        const Footprint p = {{s, 0}, {0, s}, {0, 0}};
         double squared = 0, all = 0, difference = 0;
         for (int i = 0; i < 4000; i++) {
             const float x = (float)random_range(&r, -500, 500), z = (float)random_range(&r, -500, 500);
@@ -284,7 +284,7 @@ static double old_foam(const kernel_bench *b, const FoamData *data, double x, do
 {
     struct kernel_context cx = b->cx;
     cx.foam = data;
-    const Footprint p = {{side, 0}, {0, side}};
+    const Footprint p = {{side, 0}, {0, side}, {0, 0}};
     return (double)foam_shares(&cx, (float)x, (float)z, p, sight).old;
 }
 

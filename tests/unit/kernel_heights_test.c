@@ -389,7 +389,7 @@ static void slopes_are_those_of_differences(void **state)
     const FrameData frame = {0};
     const TileData tile = tile_of(&t, 2);
     const struct kernel_context cx = {&frame, &tile, {{&t}}, NULL};
-    const Footprint none = {{0, 0}, {0, 0}};
+    const Footprint none = {{0, 0}, {0, 0}, {0, 0}};
     double slope = 0, bend = 0, ends = 0;
     for (int k = 0; k < 500; k++) {
         const float x = (float)random_range(&r, -20, 20), z = (float)random_range(&r, -20, 20), h = 1.0f / 64;
@@ -398,7 +398,7 @@ static void slopes_are_those_of_differences(void **state)
         slope = fmax(slope, fabs((double)(east.height_even - west.height_even) / twice - (double)s.slope_even.x));
         bend = fmax(bend, fabs((double)(east.slope_even.x - west.slope_even.x) / twice - (double)s.bend_xx));
         bend = fmax(bend, fabs((double)(east.slope_even.y - west.slope_even.y) / twice - (double)s.bend_xz));
-        const Surface shutter = surface_filtered(&cx, x, z, none, vec2(0, 0));
+        const Surface shutter = surface_filtered(&cx, vec3(0, -1, 0), 1, x, z, none, vec2(0, 0));
         const table_point close = table_at(&t, (double)x - t.drift[0], (double)z - t.drift[1]);
         ends = fmax(ends, fabs((double)(shutter.height_even + shutter.height_odd) - close.height));
         ends = fmax(ends, fabs((double)(shutter.slope_even.x - shutter.slope_odd.x) - close.slope[0]));
@@ -423,9 +423,9 @@ static void filtered_covariance_is_that_of_averages(void **state)
     double mean_error = 0, error = 0;
     for (int k = 0; k < 20; k++) {
         const double x = random_range(&r, -10, 10), z = random_range(&r, -10, 10), size = exp(random_range(&r, -3, 0.3));
-        const Footprint f = {{(float)size, (float)(0.3 * size)}, {(float)(-0.2 * size), (float)(1.5 * size)}};
+        const Footprint f = {{(float)size, (float)(0.3 * size)}, {(float)(-0.2 * size), (float)(1.5 * size)}, {0, 0}};
         const double sides[2][2] = {{(double)f.right.x, (double)f.right.y}, {(double)f.down.x, (double)f.down.y}};
-        const Surface s = surface_filtered(&cx, (float)x, (float)z, f, vec2(0, 0));
+        const Surface s = surface_filtered(&cx, vec3(0, -1, 0), 1, (float)x, (float)z, f, vec2(0, 0));
         double mean[2] = {0}, square[3] = {0}, ours[3] = {(double)s.variance_xx, (double)s.variance_xz, (double)s.variance_zz};
         for (int i = 0; i < POINTS; i++) {
             const double u = random_range(&r, -0.5, 0.5), v = random_range(&r, -0.5, 0.5);

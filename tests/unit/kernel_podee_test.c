@@ -24,7 +24,9 @@ static WaveData wave_of(double amplitude, double a, double b)
 
 static Footprint random_footprint(random_state *r)
 {
-    return (Footprint){{(float)random_range(r, -0.2, 0.2), (float)random_range(r, -0.2, 0.2)}, {(float)random_range(r, -1, 1), (float)random_range(r, -1, 1)}};
+    return (Footprint){{(float)random_range(r, -0.2, 0.2), (float)random_range(r, -0.2, 0.2)},
+                       {(float)random_range(r, -1, 1), (float)random_range(r, -1, 1)},
+                       {0, 0}};
 }
 
 /* Half of the phase from one edge of the pixel's parallelogram to the other, along the wave through its centre: walked, not solved. */
@@ -123,7 +125,7 @@ static void split_is_as_published(void **state)
     double worst = 0;
     for (int i = 1; i <= 70; i++) {
         const double frequency = i / 100.0, k = 2 * pi * frequency, amplitude = 0.1;
-        const Footprint p = {{1, 0}, {0, 1}};
+        const Footprint p = {{1, 0}, {0, 1}, {0, 0}};
         WaveData w = wave_of(amplitude, 0.6 * k, 0.8 * k);
         w.phase = 0.13f;
         const TileData tile = {.mixed_count = 1};

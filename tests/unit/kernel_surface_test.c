@@ -103,10 +103,10 @@ static void shutter_ends_come_by_rotation(void **state)
         scene.shutter = shutters[k];
         kernel_bench *b = kernel_bench_create(&scene);
         kernel_bench_tile(b, true, false, 320, 300);
-        const Footprint p = {{0, 0}, {0, 0}};
+        const Footprint p = {{0, 0}, {0, 0}, {0, 0}};
         for (int i = 0; i < 500; i++) {
             const float x = (float)random_range(&r, -5, 5), z = (float)random_range(&r, -5, 5);
-            const Surface s = surface_filtered(&b->cx, x, z, p, vec2(0, 0));
+            const Surface s = surface_filtered(&b->cx, vec3(0, -1, 0), 1, x, z, p, vec2(0, 0));
             const double at[2] = {scene.camera.position[0] + (double)b->tile.data.origin_x + (double)x,
                                   scene.camera.position[2] + (double)b->tile.data.origin_z + (double)z};
             const bounds limit = float_bounds(&scene, (double)x, (double)z);
@@ -147,12 +147,12 @@ typedef struct variance_split {
 static variance_split split_of(const kernel_bench *b, const mgt_wave *wave, double frequency)
 {
     enum { PHASES = 64 };
-    const Footprint p = {{1, 0}, {0, 1}};
+    const Footprint p = {{1, 0}, {0, 1}, {0, 0}};
     variance_split v = {0};
     const double k = 2 * pi * frequency;
     for (int i = 0; i < PHASES; i++) {
         const double along = (double)i / PHASES / frequency; /* metres along the wave */
-        const Surface s = surface_filtered(&b->cx, (float)(0.8 * along), (float)(0.6 * along), p, vec2(0, 0));
+        const Surface s = surface_filtered(&b->cx, vec3(0, -1, 0), 1, (float)(0.8 * along), (float)(0.6 * along), p, vec2(0, 0));
         v.mean += (double)(s.slope_even.x * s.slope_even.x + s.slope_even.y * s.slope_even.y) / PHASES;
         v.bend += (double)(s.bend_xx * s.bend_xx + 2 * s.bend_xz * s.bend_xz + s.bend_zz * s.bend_zz) / 12 / PHASES;
         v.unresolved += (double)(s.variance_xx + s.variance_zz) / PHASES;
@@ -168,7 +168,7 @@ static void waves_lift_the_surface_whole(void **state)
 {
     (void)state;
     enum { PHASES = 64 };
-    const Footprint p = {{1, 0}, {0, 1}};
+    const Footprint p = {{1, 0}, {0, 1}, {0, 0}};
     const double fall = 0.3;
     double worst = 0;
     for (int i = 1; i <= 10; i++) {
@@ -178,7 +178,7 @@ static void waves_lift_the_surface_whole(void **state)
         double mean = 0;
         for (int j = 0; j < PHASES; j++) {
             const double along = (double)j / PHASES / frequency;
-            const Surface s = surface_filtered(&b->cx, (float)(0.8 * along), (float)(0.6 * along), p, vec2(0, 0));
+            const Surface s = surface_filtered(&b->cx, vec3(0, -1, 0), 1, (float)(0.8 * along), (float)(0.6 * along), p, vec2(0, 0));
             const double bend = 0.64 * (double)s.bend_xx + 0.96 * (double)s.bend_xz + 0.36 * (double)s.bend_zz;
             mean += (0.8 * (double)s.slope_even.x + 0.6 * (double)s.slope_even.y - bend * (double)s.height_even / fall) / PHASES;
         }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
  * Every method through the API: on every standard scene, in several sizes, on moving and still water, under lights from 0.05° to
- * 10°; the baselines' bytes for any threads, lanes and crop; and the light that each method keeps.
+ * 10°; the baselines' bytes for any threads, lanes and crop; the light that each method keeps;
+ * and the blur of near water while the shutter is open.
  */
 #include "unit/api_sea.h"
 
 #include "image/picture.h"
-#include "scene/scene_file.h"
+#include "unit/text_scene.h"
 
 static const struct {
     mgt_quality quality;
@@ -384,6 +385,66 @@ static void the_sun_is_seen_from_below(void **state)
     mgt_context_destroy(context);
 }
 
+/* ---- near water under an open shutter ---- */
+
+enum { NEAR_WIDTH = 48, NEAR_HEIGHT = 36, NEAR_PIXELS = NEAR_WIDTH * NEAR_HEIGHT };
+
+/* The mirrored sky without the mean of each row. */
+static void near_texture(mgt_context *context, const mgt_scene *scene, double texture[NEAR_PIXELS])
+{
+    static float color[3 * NEAR_PIXELS];
+    const mgt_target target = sea_target(MGT_LAYER_COLOR, MGT_FORMAT_RGB32F, color, 0);
+    sea_render(context, scene, &target, 1);
+    for (int row = 0; row < NEAR_HEIGHT; row++) {
+        double mean = 0;
+        for (int x = 0; x < NEAR_WIDTH; x++)
+            mean += (double)color[3 * (row * NEAR_WIDTH + x) + 1] / NEAR_WIDTH;
+        for (int x = 0; x < NEAR_WIDTH; x++)
+            texture[row * NEAR_WIDTH + x] = (double)color[3 * (row * NEAR_WIDTH + x) + 1] - mean;
+    }
+}
+
+/* Water that heaves slides along under the rays, by many short waves where it is near. Pixels of 1/16 of a degree, 7 m away, as in a picture of 720 rows. */
+static void an_open_shutter_blurs_near_water(void **state)
+{
+    (void)state;
+    static const char near[] = "mangata: 1\n"
+                               "image: {width: 48, height: 36}\n"
+                               "camera: {position: [0, 2, 0], target: [0, 0, -7], fov_y_deg: 2.25}\n"
+                               "light: {elevation_deg: 30, azimuth_deg: 90, radiance: [0, 0, 0]}\n"
+                               "sky: {model: gradient}\n"
+                               "time: {start: 3, fps: 30, shutter: 1}\n"
+                               "water:\n"
+                               "  spectrum: {model: jonswap, wind: 10, count: 96, seed: 9, shortest: 0.05}\n";
+    static const char *const choppy[] = {"water.choppiness=0.8"};
+    static double truth[NEAR_PIXELS], seen[NEAR_PIXELS];
+    mgt_context *context = sea_context(2, MGT_ISA_AUTO);
+    for (size_t changes = 0; changes < 2; changes++) {
+        text_scene v = text_scene_read(near, choppy, changes);
+        v.scene.quality.method = MGT_METHOD_SSAA;
+        v.scene.quality.spatial_samples = 3;
+        v.scene.quality.time_samples = 16;
+        near_texture(context, &v.scene, truth);
+        static const mgt_method rows[] = {MGT_METHOD_MANGATA, MGT_METHOD_ADAPTIVE};
+        for (int i = 0; i < 2; i++) {
+            mgt_quality_init(&v.scene.quality, sizeof v.scene.quality);
+            v.scene.quality.method = rows[i];
+            near_texture(context, &v.scene, seen);
+            double off = 0, own = 0, all = 0;
+            for (int p = 0; p < NEAR_PIXELS; p++) {
+                off += (seen[p] - truth[p]) * (seen[p] - truth[p]);
+                own += seen[p] * seen[p];
+                all += truth[p] * truth[p];
+            }
+            print_message("  near water, choppiness %g, method %d: contrast %.3f of ssaa's, error %.3f of it\n", v.scene.water.choppiness, rows[i],
+                          sqrt(own / all), sqrt(off / all));
+            assert_true(sqrt(own / all) > 0.8 && sqrt(own / all) < 1.1 && sqrt(off / all) < 0.35);
+        }
+        scene_file_free(v.file);
+    }
+    mgt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +455,7 @@ int main(void)
         cmocka_unit_test(msaa_is_none_but_for_the_edges),
         cmocka_unit_test(taa_of_a_still_sea_is_a_mean),
         cmocka_unit_test(light_is_kept_within_limits),
+        cmocka_unit_test(an_open_shutter_blurs_near_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,13 +28,13 @@ void sort_cells(int place, int slot)
     if (cells_data.part >= parts_of_class(job.kind))
         return;
     frame_halvings = max(job.halvings.x, job.halvings.y);
-    int are_parts = job.halvings.x + job.halvings.y > 0 ? 1 - cells_data.sky_black : 0;
+    int parts = job.halvings.x + job.halvings.y > 0 && cells_data.sky_black == 0 ? 1 << job.halvings.y : 0;
     for (int end = 0; end <= cells_data.moves; end++) {
         bool open = end < cells_data.moves;
         turn_to_set(set_of_part(job.kind, open));
         view_data = set_view(1 + cell_size(job.halvings.x, job.halvings.y));
         tile_slot = slot + (open ? cells_data.slots : 0);
-        sort_tile(job.tile % cells_data.columns, job.tile / cells_data.columns, open ? 0 : cells_data.slots * cells_data.moves, are_parts);
+        sort_tile(job.tile % cells_data.columns, job.tile / cells_data.columns, open ? 0 : cells_data.slots * cells_data.moves, parts);
         barrier();
     }
     if (gl_LocalInvocationIndex == 0u)
