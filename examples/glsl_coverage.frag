@@ -21,12 +21,12 @@ TileData tile;
 
 layout(location = 0) out float coverage;
 
-/* Waves come longest first: those below a quarter of a cycle a pixel steer the first hit, the others would only add noise to it. */
-int searched_waves(vec3 ray)
+/* Number of the waves, which come longest first, whose frequency squared is below `most`, (cycles a pixel)². */
+int waves_below(vec3 ray, float most)
 {
     Footprint pixel = footprint_at(0, ray, tile.camera_height / -ray.y);
     int count = 0;
-    while (count < tile.mixed_count && wave_frequency(0, pixel, waves[count]) < 0.0625)
+    while (count < whole_image.mixed_count && wave_frequency(0, pixel, waves[count]) < most)
         count++;
     return count;
 }
@@ -37,7 +37,11 @@ float coverage_at(float column, float row)
     PixelRay p = pixel_ray_filtered(0, column, row);
     if (p.water <= 0.0)
         return 0.0;
-    tile.search_count = tile.coarse_count = searched_waves(p.ray);
+    /* Waves below a quarter of a cycle a pixel steer the first hit; the others would only add noise to it. Those below a tenth are resolved: while the
+     * shutter is open they carry the others through the pixel. */
+    tile.search_count = tile.coarse_count = waves_below(p.ray, 0.0625);
+    tile.resolved_count = waves_below(p.ray, 0.01);
+    tile.mixed_count = whole_image.mixed_count - tile.resolved_count;
     SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0), vec2(0.0))); /* from the camera, search */
     return p.water * glitter_coverage(0, slopes, slopes);
 }
