@@ -77,7 +77,7 @@ static void run_rows(frame_stage stage, const struct kernel_context *cx, int fir
         store(out->green + i, state.close.x + state.close.y + state.bend_xx + state.bend_xz + state.bend_zz);
         store(out->blue + i, state.octave + state.octave_sq + state.mirror.j.ex + state.mirror.j.ez + state.mirror.j.fx + state.mirror.j.fz);
         if (stage == STAGE_COVERAGE)
-            store(out->coverage + i, glitter_coverage(&context, state, state));
+            store(out->coverage + i, glitter_coverage(&context, state));
     }
 }
 

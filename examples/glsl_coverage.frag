@@ -43,7 +43,7 @@ float coverage_at(float column, float row)
     tile.resolved_count = waves_below(p.ray, 0.01);
     tile.mixed_count = whole_image.mixed_count - tile.resolved_count;
     SlopeState slopes = slope_state(0, p.ray, HitEstimate(0.0, 0.0, 1.0, vec2(0.0), vec2(0.0))); /* from the camera, search */
-    return p.water * glitter_coverage(0, slopes, slopes);
+    return p.water * glitter_coverage(0, slopes);
 }
 
 /* Several hits, one above the other: the tile's rows become theirs. The library takes up to four times as many far away, see docs/grazing.md. */

@@ -194,7 +194,8 @@ MGT_API mgt_status mgt_render_sums(mgt_context *context, const mgt_scene *scene,
 
 /* What method `mangata` knows of one pixel. Near the horizon a pixel shows two to eight hits, one above the other: water, coverage and radiance are then
  * their mean, and slopes, covariances and the path are those of the lowest one. Slopes are (∂y/∂x, ∂y/∂z). The light plane is r·L = 1, its axes as in the
- * kernels: e horizontal, f up. Objects are not seen, and quality.path_segments counts as 1. */
+ * kernels: e horizontal, f up. Of a moving camera slopes, covariances and the path are those of the last half of the shutter. Objects are not seen, and
+ * quality.path_segments counts as 1. */
 typedef struct mgt_pixel_info {
     size_t struct_size;
     double water;                       /* fraction of the pixel that is water; where it is 0 all else but radiance is 0 */

@@ -40,17 +40,13 @@ static FrameData sort_set(const refinement *f, size_t tile, const wave_set *set,
     return data;
 }
 
-/* Sorts the waves of one piece of the shutter into s->close, and into s->open if the camera moves. */
+/* Sorts the waves of one piece of the shutter into s->close. */
 static FrameData sort_cells(const refinement *f, size_t tile, int across, int down, int part, tile_scratch *s)
 {
     refinement_tile *t = &f->tiles[tile];
     const shutter_parts *parts = refinement_parts(f, t, (across + down) / 2);
-    const FrameData data = sort_set(f, tile, parts->sets[f->moves ? part + 1 : part], across, down, &s->close);
-    if (f->moves)
-        sort_set(f, tile, parts->sets[part], across, down, &s->open);
-    s->close.data.parts = s->open.data.parts = across + down > 0 && !data.sky_black ? 1 << down : 0;
-    if (f->moves)
-        tile_join_reach(s);
+    const FrameData data = sort_set(f, tile, parts->sets[part], across, down, &s->close);
+    s->close.data.parts = across + down > 0 && !data.sky_black ? 1 << down : 0;
     if (across + down == 0)
         t->dark = lane_dark(&data, s->close.data.light_reach, f->by_display, lights_dark(&data));
     refinement_price(f, t, (across + down) / 2, s->close.data.resolved_count + s->close.data.mixed_count);
@@ -67,15 +63,11 @@ static void plant_tile(void *argument, size_t tile, uint32_t worker)
     refinement_tile *t = &f->tiles[tile];
     const FrameData data = sort_cells(f, tile, 0, 0, 0, s);
     tile_find_estimates(a->kernels, &data, &s->close, s->close_estimate);
-    if (f->moves)
-        tile_find_estimates(a->kernels, &data, &s->open, s->open_estimate);
     const method_tile shaded = {.frame = &data,
                                 .sky = a->sky,
                                 .light = a->objects ? &a->objects[tile].light : NULL,
                                 .close = &s->close,
                                 .close_estimate = s->close_estimate,
-                                .open = f->moves ? &s->open : NULL,
-                                .open_estimate = s->open_estimate,
                                 .detail = detail};
     a->kernels->method(MGT_METHOD_MANGATA, &shaded, &s->pixels);
     const uint32_t left = (uint32_t)(tile % f->columns) * TILE_WIDTH, top = (uint32_t)(tile / f->columns) * TILE_HEIGHT;
@@ -144,7 +136,7 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     cells->down = down;
     for (int part = 0; part < parts; part++) {
         const FrameData data = sort_cells(f, tile, across, down, part, s);
-        a->kernels->cells(&data, a->sky, &s->close, f->moves ? &s->open : NULL, cells);
+        a->kernels->cells(&data, a->sky, &s->close, cells);
         add_part(cells, 1.0f / (float)parts, sum);
     }
     if (!a->frame->data.sky_black)
@@ -165,14 +157,13 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     return true;
 }
 
-/* Appends the four cells of a leaf. A cell may begin its search at the hit of a pixel below if its class sees the shutter as one piece and the camera stands
- * still. `sum` starts with the values that the cells keep of their leaf. */
+/* Appends the four cells of a leaf. A cell may begin its search at the hit of a pixel below if its class sees the shutter as one piece. `sum` starts with the values that the cells keep of their leaf. */
 static void add_children(const refinement *f, size_t tile, tile_cells *cells, tile_pixels *sum, const leaf *l)
 {
     const float kept = lane_kept(f->tiles[tile].dark, l->variance);
     const size_t below = leaf_pixel(f, tile, l) + 2 * (size_t)f->out->width;
-    const bool still = !f->a->frame->data.sky_black && !f->moves && refinement_parts(f, &f->tiles[tile], l->level + 1)->count == 1;
-    const bool known = still && below < (size_t)f->width * f->height;
+    const bool whole = !f->a->frame->data.sky_black && refinement_parts(f, &f->tiles[tile], l->level + 1)->count == 1;
+    const bool known = whole && below < (size_t)f->width * f->height;
     const uint32_t wide = 1u << halvings[l->shape][0];
     for (uint32_t k = 0; k < 4; k++) {
         cells->column[cells->count] = (float)(l->column * wide + k % wide);
@@ -322,25 +313,23 @@ static void place_waves(refinement *f)
     const frame *whole = f->a->frame;
     int counts[CELL_CLASSES];
     cell_part_counts(whole, counts);
+    /* A skyline takes long to find, and skylines of pieces of the shutter are nearly the same. */
+    wave_set *const skyline = f->instants[0];
+    wave_set_build(whole, &whole->close, frame_shutter(whole), true, skyline);
     for (int k = 0; k < CELL_CLASSES; k++) {
         shutter_parts *p = &f->parts[k];
         p->count = counts[k];
-        for (int i = 0; i < (f->moves ? p->count + 1 : p->count); i++) {
-            const cell_time part = cell_part(whole->scene, p->count, i);
-            const camera_rays camera = camera_at(whole, part.share);
-            if (k == 0) {
-                wave_set_build(whole, &camera, part.time, true, p->sets[i]);
-                continue;
-            }
-            /* A skyline takes long to find, and skylines of pieces of the shutter are nearly the same. */
-            wave_set_place(whole, &camera, part.time, true, p->sets[i]);
-            skyline_copy(f->parts[0].sets[f->moves && i > 0], p->sets[i]);
+        for (int i = 0; i < p->count; i++) {
+            const double from = (double)i / p->count, to = (i + 1.0) / p->count;
+            const camera_rays open = camera_at(whole, from), close = camera_at(whole, to);
+            wave_set_sweep(whole, &open, &close, from, to, p->sets[i]);
+            skyline_copy(skyline, p->sets[i]);
         }
     }
     for (int k = 0; k < INSTANTS; k++) {
-        const cell_time instant = cell_instant(whole->scene, k);
-        const camera_rays camera = camera_at(whole, instant.share);
-        wave_set_build(whole, &camera, instant.time, false, f->instants[k]);
+        const double instant = cell_instant(k);
+        const camera_rays camera = camera_at(whole, instant);
+        wave_set_build(whole, &camera, frame_part(whole, instant, instant), false, f->instants[k]);
     }
 }
 

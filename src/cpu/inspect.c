@@ -72,14 +72,14 @@ static void map_covariance(const Mirror *m, const double s[3], double out[3])
     out[2] = fx * fx * s[0] + 2 * fx * fz * s[1] + fz * fz * s[2];
 }
 
-static void describe_mirror(const struct kernel_context *cx, SlopeState open, SlopeState close, mgt_pixel_info *info)
+static void describe_mirror(const struct kernel_context *cx, SlopeState s, mgt_pixel_info *info)
 {
-    const Mirror m = light_map(cx, open, close);
-    const LightPath path = light_path(cx, m, open, close);
+    const Mirror m = light_map(cx, s);
+    const LightPath path = light_path(cx, m, s);
     const double both[3] = {info->unresolved[0] + info->bend[0] + (double)cx->frame->slope_floor, info->unresolved[1] + info->bend[1],
                             info->unresolved[2] + info->bend[2] + (double)cx->frame->slope_floor};
-    info->mirror_slope[0] = (double)close.mirror.slope.x;
-    info->mirror_slope[1] = (double)close.mirror.slope.y;
+    info->mirror_slope[0] = (double)s.mirror.slope.x;
+    info->mirror_slope[1] = (double)s.mirror.slope.y;
     info->path[0][0] = (double)path.open.x;
     info->path[0][1] = (double)path.open.y;
     info->path[1][0] = (double)path.close.x;
@@ -89,14 +89,14 @@ static void describe_mirror(const struct kernel_context *cx, SlopeState open, Sl
 }
 
 /* Adds one of the pixel's `hits` hits to the means. Returns whether it is water. */
-static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState open, SlopeState close, uint32_t hits, mgt_pixel_info *info)
+static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState s, uint32_t hits, mgt_pixel_info *info)
 {
     const PixelRay ray = pixel_ray_filtered(cx, (float)at.column, (float)at.row);
     const float part = 1.0f / (float)hits;
     /* The light of deep water is known for whole tiles alone, so a camera under water gets black. */
     const bool dark = ray.water > 0 || cx->frame->camera_under != 0;
     const vec3 sky = dark ? (vec3){0, 0, 0} : background(cx, ray.sky_ray);
-    const PixelResult result = ray.water > 0 ? over_state(cx, glitter_result(cx, ray, open, close), ray, close) : (PixelResult){sky, 0, 0, 0};
+    const PixelResult result = ray.water > 0 ? over_state(cx, glitter_result(cx, ray, s), ray, s) : (PixelResult){sky, 0, 0, 0};
     info->water = (double)((float)info->water + result.water * part);
     info->coverage = (double)((float)info->coverage + result.coverage * part);
     const float color[] = {result.color.x, result.color.y, result.color.z};
@@ -105,40 +105,51 @@ static bool add_hit(const struct kernel_context *cx, tile_pixel at, SlopeState o
     return ray.water > 0;
 }
 
+/* Adds the share `part` of the means of one part of the shutter. */
+static void add_part(const mgt_pixel_info *of_part, float part, mgt_pixel_info *info)
+{
+    info->water = (double)((float)info->water + part * (float)of_part->water);
+    info->coverage = (double)((float)info->coverage + part * (float)of_part->coverage);
+    for (int c = 0; c < 3; c++)
+        info->radiance[c] = (double)((float)info->radiance[c] + part * (float)of_part->radiance[c]);
+}
+
 void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, uint32_t x, uint32_t y, tile_scratch *scratch, mgt_pixel_info *info)
 {
     const tile_pixel pixel = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
-    const bool moves = f->scene->camera_moves;
-    const struct kernel_context cx = sort_tile(f, &waves->shutter, sky, pixel, &scratch->close, scratch->close_estimate);
-    struct kernel_context before = cx;
-    if (moves)
-        before = sort_tile(f, &waves->open, sky, pixel, &scratch->open, scratch->open_estimate);
-    const uint32_t hits = (uint32_t)cx.tile->hit_rows;
+    const int parts = f->scene->camera_moves ? 2 : 1;
+    struct kernel_context cx;
     *info = (mgt_pixel_info){.struct_size = sizeof *info};
     bool water = false;
-    SlopeState open, close;
-    for (uint32_t hit = 0; hit < hits; hit++) {
-        const tile_pixel at = {pixel.tile_x, pixel.tile_y, pixel.column, pixel.row * hits + hit};
-        close = slopes_of(&cx, scratch->close_estimate, at);
-        open = moves ? slopes_of(&before, scratch->open_estimate, at) : close;
-        water = add_hit(&cx, at, open, close, hits, info);
+    SlopeState state;
+    for (int part = 0; part < parts; part++) {
+        const wave_set *set = f->scene->camera_moves ? &waves->halves[part] : &waves->shutter;
+        cx = sort_tile(f, set, sky, pixel, &scratch->close, scratch->close_estimate);
+        const uint32_t hits = (uint32_t)cx.tile->hit_rows;
+        mgt_pixel_info of_part = {0};
+        for (uint32_t hit = 0; hit < hits; hit++) {
+            const tile_pixel at = {pixel.tile_x, pixel.tile_y, pixel.column, pixel.row * hits + hit};
+            state = slopes_of(&cx, scratch->close_estimate, at);
+            water = add_hit(&cx, at, state, hits, &of_part);
+        }
+        add_part(&of_part, 1.0f / (float)parts, info);
     }
     if (!water)
         return;
-    info->slope_open[0] = (double)open.open.x;
-    info->slope_open[1] = (double)open.open.y;
-    info->slope_close[0] = (double)close.close.x;
-    info->slope_close[1] = (double)close.close.y;
-    info->unresolved[0] = (double)close.variance_xx;
-    info->unresolved[1] = (double)close.variance_xz;
-    info->unresolved[2] = (double)close.variance_zz;
-    info->bend[0] = (double)close.bend_xx;
-    info->bend[1] = (double)close.bend_xz;
-    info->bend[2] = (double)close.bend_zz;
+    info->slope_open[0] = (double)state.open.x;
+    info->slope_open[1] = (double)state.open.y;
+    info->slope_close[0] = (double)state.close.x;
+    info->slope_close[1] = (double)state.close.y;
+    info->unresolved[0] = (double)state.variance_xx;
+    info->unresolved[1] = (double)state.variance_xz;
+    info->unresolved[2] = (double)state.variance_zz;
+    info->bend[0] = (double)state.bend_xx;
+    info->bend[1] = (double)state.bend_xz;
+    info->bend[2] = (double)state.bend_zz;
     info->resolved = (uint32_t)cx.tile->resolved_count;
     info->mixed = (uint32_t)cx.tile->mixed_count;
     info->filtered = (uint32_t)f->scene->water.wave_count - info->resolved - info->mixed;
     find_hit(f, &cx, pixel, scratch->close_estimate, info);
     if (cx.tile->light_reach != 0)
-        describe_mirror(&cx, open, close, info);
+        describe_mirror(&cx, state, info);
 }

@@ -448,17 +448,15 @@ static void store_cell(tile_pixels *out, tile_detail *detail, size_t i, CellResu
 static CellResult cell_without_water(PixelResult sky) { return (CellResult){sky, real(0.0f), real(0.0f), real(0.0f), real(0.0f), real(1.0f), real(1.0f)}; }
 
 /* `detail` NULL: errors are not estimated, which saves time. */
-static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_estimate *estimate,
-                           const struct kernel_context *open, const tile_estimate *open_estimate, tile_pixels *out, tile_detail *detail)
+static void render_glitter(const struct kernel_context *cx, const tile_light *light, tile_places places, const tile_estimate *estimate, tile_pixels *out,
+                           tile_detail *detail)
 {
     struct kernel_context here = *cx;
-    tile_looks close_looks, open_looks;
-    close_looks.places = open_looks.places = places;
+    tile_looks looks;
+    looks.places = places;
     for (size_t i = 0; i < places.count; i += MGT_LANES)
         store(out->water + i, pixel_rays(cx, &places, i).water);
-    look_at_tile(cx, estimate, out->water, &close_looks);
-    if (open)
-        look_at_tile(open, open_estimate, out->water, &open_looks);
+    look_at_tile(cx, estimate, out->water, &looks);
     for (size_t i = 0; i < places.count; i += MGT_LANES) {
         const PixelRay p = pixel_rays(cx, &places, i);
         here.light = light_at(light, i);
@@ -466,12 +464,11 @@ static void render_glitter(const struct kernel_context *cx, const tile_light *li
             store_cell(out, detail, i, cell_without_water(nothing_but_sky(&here, p)));
             continue;
         }
-        const SlopeState state = looked_slopes(cx, &close_looks, i, p.ray);
-        const SlopeState before = open ? looked_slopes(open, &open_looks, i, pixel_rays(open, &places, i).ray) : state;
+        const SlopeState state = looked_slopes(cx, &looks, i, p.ray);
         if (detail)
-            store_cell(out, detail, i, cell_result_of(&here, p, before, state));
+            store_cell(out, detail, i, cell_result_of(&here, p, state));
         else
-            store_pixels(out, i, over_state(&here, glitter_result(&here, p, before, state), p, state));
+            store_pixels(out, i, over_state(&here, glitter_result(&here, p, state), p, state));
     }
 }
 
@@ -494,12 +491,10 @@ static void place_starts(const struct kernel_context *cx, size_t count, tile_cel
     }
 }
 
-static void lanes_cells(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells)
+static void lanes_cells(const FrameData *frame, const float *sky, const tile_waves *waves, tile_cells *cells)
 {
-    struct kernel_context cx = context_for(frame, close), before = cx;
-    if (open)
-        before = context_for(frame, open);
-    cx.sky = before.sky = sky;
+    struct kernel_context cx = context_for(frame, waves);
+    cx.sky = sky;
     size_t count = cells->count;
     for (; count % MGT_LANES != 0; count++) {
         cells->column[count] = cells->column[count - 1];
@@ -508,8 +503,8 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
         cells->below[count] = cells->below[count - 1];
     }
     /* The parent's height says nothing about its parts' hits in grazing water, nor about their places at rest in choppy water. */
-    const bool grazing = close->data.grazing || (open && open->data.grazing);
-    const float searched = grazing || close->data.pressed > 0 ? 1 : 0;
+    const bool grazing = waves->data.grazing;
+    const float searched = grazing || waves->data.pressed > 0 ? 1 : 0;
     for (size_t i = 0; i < count; i++) {
         cells->estimate.search[i] = searched;
         cells->estimate.from[i] = 0;
@@ -519,7 +514,7 @@ static void lanes_cells(const FrameData *frame, const float *sky, const tile_wav
     if (grazing)
         place_starts(&cx, count, cells);
     const tile_places places = {cells->column, cells->row, count};
-    render_glitter(&cx, cells->light, places, &cells->estimate, open ? &before : NULL, &cells->estimate, &cells->pixels, &cells->detail);
+    render_glitter(&cx, cells->light, places, &cells->estimate, &cells->pixels, &cells->detail);
 }
 
 static struct kernel_context context_of(const method_tile *t, const tile_waves *waves)
@@ -556,7 +551,7 @@ static void add_rows(const tile_pixels *rows, int hits, int first, tile_pixels *
 }
 
 /* Renders pixels that are the mean of several hits, one above the other. */
-static void several_hits(const method_tile *t, const struct kernel_context *close, const struct kernel_context *open, tile_pixels *out)
+static void several_hits(const method_tile *t, const struct kernel_context *cx, tile_pixels *out)
 {
     row_grid grid;
     tile_pixels rows;
@@ -564,21 +559,19 @@ static void several_hits(const method_tile *t, const struct kernel_context *clos
     const int hits = (int)t->close->data.hit_rows;
     memset(out, 0, sizeof *out);
     for (int part = 0; part < hits; part++) {
-        render_glitter(close, light_of_rows(t->light, hits, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, open,
-                       t->open_estimate + part, &rows, NULL);
+        render_glitter(cx, light_of_rows(t->light, hits, part, &light), rows_from(part * TILE_HEIGHT, &grid), t->close_estimate + part, &rows, NULL);
         add_rows(&rows, hits, part * TILE_HEIGHT, out);
     }
 }
 
 static void mangata_pixels(const method_tile *t, tile_pixels *out)
 {
-    const struct kernel_context close = context_of(t, t->close), open = t->open ? context_of(t, t->open) : close;
+    const struct kernel_context cx = context_of(t, t->close);
     row_grid grid;
-    if (t->close->data.hit_rows > 1) {
-        several_hits(t, &close, t->open ? &open : NULL, out);
-        return;
-    }
-    render_glitter(&close, t->light, rows_from(0, &grid), t->close_estimate, t->open ? &open : NULL, t->open_estimate, out, t->detail);
+    if (t->close->data.hit_rows > 1)
+        several_hits(t, &cx, out);
+    else
+        render_glitter(&cx, t->light, rows_from(0, &grid), t->close_estimate, out, t->detail);
 }
 
 static void podee_pixels(const method_tile *t, tile_pixels *out)

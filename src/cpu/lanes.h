@@ -64,8 +64,8 @@ typedef struct method_tile {
     const lean_map *lean;      /* read by methods lean and leadr */
     const tile_waves *close;
     const tile_estimate *close_estimate;
-    const tile_waves *open; /* the tile when the shutter opens; NULL: `close` stands for it. Methods over the shutter have it if the camera moves, rays over
-                               the shutter also if the shutter is open for a time */
+    const tile_waves *open; /* the tile when the shutter opens; NULL: `close` stands for it. Methods that see both ends of the shutter have it if the
+                               camera moves, rays over the shutter also if the shutter is open for a time */
     const tile_estimate *open_estimate;
     tile_detail *detail; /* output of method mangata; NULL: not wanted */
 } method_tile;
@@ -109,8 +109,8 @@ typedef struct lane_kernels {
     void (*sum)(const float *values, sample_terms *terms);
     /* Shades the pixels by a method that shades each pixel once: METHOD_CENTRE or METHOD_FILTERED. */
     void (*method)(mgt_method method, const method_tile *tile, tile_pixels *out);
-    /* Shades cells by method mangata. The waves are sorted for the cells' level. `open`: as in method_tile. Lists are filled up to whole vectors. */
-    void (*cells)(const FrameData *frame, const float *sky, const tile_waves *close, const tile_waves *open, tile_cells *cells);
+    /* Shades cells by method mangata. The waves are sorted for the cells' level. Lists are filled up to whole vectors. */
+    void (*cells)(const FrameData *frame, const float *sky, const tile_waves *waves, tile_cells *cells);
     /* Computes depth and normal at one instant. */
     void (*surface)(const FrameData *frame, const tile_waves *tile, const tile_estimate *estimate, tile_surface *out);
     /* Replaces the normals by the mean shading normals of filtered methods. The tile has resolved and mixed waves at one instant. */

@@ -29,7 +29,7 @@ bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool li
 
 float lane_kept(bool dark, float variance) { return leaf_kept(NULL, dark, variance); }
 
-int lane_class(int level, bool dark) { return leaf_class(NULL, level, dark); }
+int lane_class(int level, bool dark, bool moves) { return leaf_class(NULL, level, dark, moves); }
 
 int lane_next_points(lane_leaf l) { return (int)leaf_next_points(NULL, (float)l.points, l.places, l.coverage); }
 

@@ -23,7 +23,7 @@ bool lane_dark(const FrameData *frame, int light_reach, bool by_display, bool li
 /* leaf_kept(): fraction of a leaf's values that its parts keep. */
 float lane_kept(bool dark, float variance);
 /* leaf_class(): class of the cells of a level, which decides how many pieces of the shutter they see. */
-int lane_class(int level, bool dark);
+int lane_class(int level, bool dark, bool moves);
 
 /* The values of a leaf that its points depend on. */
 typedef struct lane_leaf {

@@ -40,7 +40,10 @@ void leaf_settle(const refinement *f, size_t tile, const leaf *l)
 
 /* ---- worth of splits ---- */
 
-const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level) { return &f->parts[lane_class(level, t->dark)]; }
+const shutter_parts *refinement_parts(const refinement *f, const refinement_tile *t, int level)
+{
+    return &f->parts[lane_class(level, t->dark, f->a->frame->scene->camera_moves)];
+}
 
 /* Updates the cost and worth of splits after a level's cost became known. An unknown cost is estimated from that of the nearest level above. */
 static void refinement_appraise(const refinement *f, refinement_tile *t)
@@ -214,7 +217,7 @@ void refinement_free(refinement *f)
     for (int k = 0; k < INSTANTS; k++)
         free(f->instants[k]);
     for (int k = 0; k < 3; k++)
-        for (int i = 0; i <= MOST_PARTS; i++)
+        for (int i = 0; i < MOST_PARTS; i++)
             free(f->parts[k].sets[i]);
     free(f->cells);
     free(f->sums);
@@ -243,7 +246,7 @@ static bool make_memory(refinement *f)
     for (int k = 0; all && k < INSTANTS; k++)
         all = (f->instants[k] = calloc(1, sizeof **f->instants)) != NULL;
     for (int k = 0; k < 3; k++)
-        for (int i = 0; all && i <= MOST_PARTS; i++)
+        for (int i = 0; all && i < MOST_PARTS; i++)
             all = (f->parts[k].sets[i] = calloc(1, sizeof **f->parts[k].sets)) != NULL;
     return all;
 }
@@ -268,7 +271,6 @@ void refinement_clear(refinement *f, const adaptive_frame *a, const picture_plan
 {
     f->a = a;
     f->out = out;
-    f->moves = a->frame->scene->camera_moves;
     f->by_coverage = a->frame->scene->quality.target_rmse > 0;
     f->by_display = !a->frame->data.sky_black && !f->by_coverage;
     f->least_bucket = 0;

@@ -42,11 +42,10 @@ typedef struct refinement_tile {
     double final_shown;    /* sum of the squared errors of settled leaves' displayed luminance, each times its squared area; under a sky */
 } refinement_tile;
 
-/* The shutter in straight pieces. If the camera stands still, sets[i] is the wave set over piece i. If it moves, sets[i] and sets[i + 1] are the wave sets at
- * both ends of piece i. */
+/* The shutter in straight pieces. sets[i] is the wave set over piece i. */
 typedef struct shutter_parts {
     int count;
-    wave_set *sets[MOST_PARTS + 1];
+    wave_set *sets[MOST_PARTS];
 } shutter_parts;
 
 struct refinement {
@@ -59,7 +58,6 @@ struct refinement {
     refinement_tile *tiles;
     float *weight;                     /* leaf_weight() of each pixel */
     float *hit_height;                 /* height of the surface at each pixel's hit, metres; NAN: the pixel is not all water */
-    bool moves;                        /* the camera moves */
     shutter_parts parts[CELL_CLASSES]; /* pieces of the shutter that leaves of each leaf_class() see */
     wave_set *instants[INSTANTS];      /* wave sets at the instants of point samples */
     tile_cells **cells;                /* one per worker */

@@ -145,10 +145,34 @@ static void shade_pixels(const tile_job *job, bool moves, tile_scratch *scratch,
     job->kernels->method(job->frame->scene->quality.method, &tile, out);
 }
 
+static void add_weighted(const tile_pixels *part, float weight, tile_pixels *sum)
+{
+    for (size_t p = 0; p < TILE_PIXELS; p++) {
+        sum->red[p] += weight * part->red[p];
+        sum->green[p] += weight * part->green[p];
+        sum->blue[p] += weight * part->blue[p];
+        sum->coverage[p] += weight * part->coverage[p];
+        sum->water[p] += weight * part->water[p];
+        sum->foam[p] += weight * part->foam[p];
+    }
+}
+
 static const wave_set *waves_of(const tile_job *job)
 {
     const mgt_method_waves waves = method_of(job->frame->scene->quality.method)->properties.waves;
     return waves == MGT_WAVES_POINT ? &job->waves->samples : waves == MGT_WAVES_INSTANT ? &job->waves->now : &job->waves->shutter;
+}
+
+/* Renders the mean over both halves of the shutter, each from the middle of the camera's way in it. */
+static void render_halves(tile_place place, tile_scratch *scratch)
+{
+    tile_pixels part;
+    memset(&scratch->pixels, 0, sizeof scratch->pixels);
+    for (int i = 0; i < 2; i++) {
+        build(place, &place.job->waves->halves[i], &scratch->close, scratch->close_estimate);
+        shade_pixels(place.job, false, scratch, &part);
+        add_weighted(&part, 0.5f, &scratch->pixels);
+    }
 }
 
 static void render_shaded(tile_place place, tile_scratch *scratch)
@@ -196,15 +220,7 @@ static void render_segments(tile_place place, tile_scratch *scratch)
             return;
         build_segment(place, (double)i / count, (double)(i + 1) / count, scratch);
         shade_pixels(job, job->frame->scene->camera_moves, scratch, &part);
-        const float weight = 1.0f / (float)count;
-        for (size_t p = 0; p < TILE_PIXELS; p++) {
-            sum->red[p] += weight * part.red[p];
-            sum->green[p] += weight * part.green[p];
-            sum->blue[p] += weight * part.blue[p];
-            sum->coverage[p] += weight * part.coverage[p];
-            sum->water[p] += weight * part.water[p];
-            sum->foam[p] += weight * part.foam[p];
-        }
+        add_weighted(&part, 1.0f / (float)count, sum);
     }
 }
 
@@ -243,6 +259,8 @@ static void render_pixels(tile_place place, tile_scratch *scratch)
         render_samples(place, scratch);
     else if (q->path_segments > 1)
         render_segments(place, scratch);
+    else if (frame_from_middle(place.job->frame))
+        render_halves(place, scratch);
     else
         render_shaded(place, scratch);
 }

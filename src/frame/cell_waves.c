@@ -15,27 +15,20 @@ static double path_bend(const frame *f, int parts)
     return sines_path_bend(&s->water, s->shutter / 2 / parts) / (0.5 * lights_disk_radius(&f->data));
 }
 
+/* Number of pieces at least if the camera moves. While it moves by some pixels a path over the water is far from straight. */
+enum { LEAST_MOVING_PARTS = 4 };
+
 void cell_part_counts(const frame *f, int counts[CELL_CLASSES])
 {
     static const double allowed[CELL_CLASSES] = {[CELLS_WHOLE] = 1e9, [CELLS_PARTS] = 0.5, [CELLS_SHARP] = 0.02};
     for (int k = 0; k < CELL_CLASSES; k++) {
-        counts[k] = 1;
+        counts[k] = k != CELLS_WHOLE && f->scene->camera_moves ? LEAST_MOVING_PARTS : 1;
         while (counts[k] < LEAF_PARTS && path_bend(f, counts[k]) > allowed[k])
             counts[k] *= 2;
     }
 }
 
-cell_time cell_part(const mgt_scene *scene, int count, int i)
-{
-    const double share = scene->camera_moves ? (double)i / count : (i + 0.5) / count;
-    return (cell_time){share, {scene->time - (1 - share) * scene->shutter, scene->camera_moves ? 0 : scene->shutter / 2 / count}};
-}
-
-cell_time cell_instant(const mgt_scene *scene, int i)
-{
-    const double share = (i + 0.5) / LEAF_INSTANTS;
-    return (cell_time){share, {scene->time - (1 - share) * scene->shutter, 0}};
-}
+double cell_instant(int i) { return (i + 0.5) / LEAF_INSTANTS; }
 
 /* ---- cells ---- */
 

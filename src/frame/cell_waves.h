@@ -6,20 +6,11 @@
 #include "frame/frame_waves.h"
 
 /* For each class of leaves, CELLS_…, the number of equal pieces of the shutter, a power of two up to LEAF_PARTS, in each of which a point's path in slope space
- * is nearly straight. */
+ * is nearly straight, and of a moving camera at least four but for CELLS_WHOLE. */
 void cell_part_counts(const frame *f, int counts[CELL_CLASSES]);
 
-/* An instant of the shutter, or a piece of it. */
-typedef struct cell_time {
-    double share;  /* time of the camera's place as a fraction of the shutter, from its opening (0) to its closing (1) */
-    interval time; /* time of the waves */
-} cell_time;
-
-/* Piece i of `count` equal pieces of the shutter. If the camera moves: instant i of the count + 1 ends of these pieces. */
-cell_time cell_part(const mgt_scene *scene, int count, int i);
-
-/* The middle of stratum i of LEAF_INSTANTS equal strata of the shutter. */
-cell_time cell_instant(const mgt_scene *scene, int i);
+/* The middle of stratum i of LEAF_INSTANTS equal strata of the shutter, as a fraction of the shutter from its opening (0) to its closing (1). */
+double cell_instant(int i);
 
 /* A view whose pixels are the cells that a pixel becomes when it is halved `across` times horizontally and `down` times vertically. */
 ViewData cell_view(const ViewData *view, int across, int down);

@@ -121,6 +121,58 @@ static CameraRays camera_data(const camera_rays *camera)
     };
 }
 
+/* Fills `out`, whose rows are x, y and z, with the matrix that takes the vectors of `from` to those of `to`; 0 where the former lie in a plane. */
+static void matrix_between(const camera_rays *from, const camera_rays *to, double out[3][3])
+{
+    const double *a = from->corner, *b = from->right, *c = from->down;
+    const double across[3][3] = {{b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]},
+                                 {c[1] * a[2] - c[2] * a[1], c[2] * a[0] - c[0] * a[2], c[0] * a[1] - c[1] * a[0]},
+                                 {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    const double volume = a[0] * across[0][0] + a[1] * across[0][1] + a[2] * across[0][2];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out[i][k] = volume != 0 ? (to->corner[i] * across[0][k] + to->right[i] * across[1][k] + to->down[i] * across[2][k]) / volume : 0;
+}
+
+/* The camera in the middle of its way. */
+static camera_rays middle_of(const camera_rays *open, const camera_rays *close)
+{
+    camera_rays m;
+    for (int i = 0; i < 3; i++) {
+        m.position[i] = 0.5 * (open->position[i] + close->position[i]);
+        m.corner[i] = 0.5 * (open->corner[i] + close->corner[i]);
+        m.right[i] = 0.5 * (open->right[i] + close->right[i]);
+        m.down[i] = 0.5 * (open->down[i] + close->down[i]);
+    }
+    return m;
+}
+
+static CameraMotion motion_of(const camera_rays *open, const camera_rays *close)
+{
+    const camera_rays middle = middle_of(open, close);
+    camera_rays change;
+    double travel[3], turn[3][3];
+    for (int i = 0; i < 3; i++) {
+        travel[i] = close->position[i] - open->position[i];
+        change.corner[i] = close->corner[i] - open->corner[i];
+        change.right[i] = close->right[i] - open->right[i];
+        change.down[i] = close->down[i] - open->down[i];
+    }
+    matrix_between(&middle, &change, turn);
+    return (CameraMotion){.travel_x = (float)travel[0],
+                          .turn_xx = (float)turn[0][0],
+                          .turn_xy = (float)turn[0][1],
+                          .turn_xz = (float)turn[0][2],
+                          .travel_y = (float)travel[1],
+                          .turn_yx = (float)turn[1][0],
+                          .turn_yy = (float)turn[1][1],
+                          .turn_yz = (float)turn[1][2],
+                          .travel_z = (float)travel[2],
+                          .turn_zx = (float)turn[2][0],
+                          .turn_zy = (float)turn[2][1],
+                          .turn_zz = (float)turn[2][2]};
+}
+
 void frame_look(frame *f, const camera_rays *open, const camera_rays *close)
 {
     f->open = rays_above(f, open);
@@ -178,11 +230,15 @@ void frame_by_quality(const frame *f, const mgt_scene *scene, frame *out)
 
 /* ---- waves of an interval ---- */
 
-interval frame_shutter(const frame *f)
+interval frame_part(const frame *f, double from, double to)
 {
     const mgt_scene *s = f->scene;
-    return s->camera_moves ? (interval){s->time, 0} : (interval){s->time - s->shutter / 2, s->shutter / 2};
+    return (interval){s->time - (1 - 0.5 * (from + to)) * s->shutter, 0.5 * (to - from) * s->shutter};
 }
+
+interval frame_shutter(const frame *f) { return f->scene->camera_moves ? (interval){f->scene->time, 0} : frame_part(f, 0, 1); }
+
+bool frame_from_middle(const frame *f) { return f->scene->camera_moves && method_of(f->scene->quality.method)->from_middle; }
 
 wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time)
 {
@@ -198,6 +254,16 @@ void wave_set_place(const frame *f, const camera_rays *camera, interval time, bo
     set->has_foam = f->foam.some;
     if (set->has_foam)
         foam_place(&f->foam, camera->position[0], camera->position[2], time.middle, time.half, filter, &set->foam);
+}
+
+void wave_set_sweep(const frame *f, const camera_rays *open, const camera_rays *close, double from, double to, wave_set *set)
+{
+    const camera_rays middle = middle_of(open, close);
+    wave_set_place(f, &middle, frame_part(f, from, to), true, set);
+    if (!f->scene->camera_moves)
+        return;
+    set->view.motion = motion_of(open, close);
+    set->view.to_close = (float)((1 - 0.5 * (from + to)) / (to - from));
 }
 
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set)

@@ -48,14 +48,25 @@ typedef struct interval {
     double middle, half;
 } interval;
 
-/* The interval during which the shutter is open. If the camera moves: the instant t, because the shutter's opening then has a camera of its own. */
+/* The interval during which the shutter is open. For methods that see both ends of it, if the camera moves: the instant t, because the shutter's opening then
+ * has a camera of its own. */
 interval frame_shutter(const frame *f);
+
+/* The interval during which the shutter is open, between two fractions of it. */
+interval frame_part(const frame *f, double from, double to);
+
+/* Whether the frame's camera moves and its method sees it from the middle of its way, not from both ends. */
+bool frame_from_middle(const frame *f);
 
 /* Where and when a camera meets the frame's waves. For a camera under water the waves are turned upside down. */
 wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval time);
 
 /* Fills a set with the frame's waves relative to a camera, without a skyline. `filter` false: every wave is resolved, as point samples see them. */
 void wave_set_place(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
+
+/* Fills a set as wave_set_place() does, with the filtered waves of the part of the shutter between its fractions `from` and `to`. The camera stands in the middle
+ * of its way from `open` to `close`, and its place and its rays change evenly. */
+void wave_set_sweep(const frame *f, const camera_rays *open, const camera_rays *close, double from, double to, wave_set *set);
 
 /* Fills a set as wave_set_place() does, with the skyline if `filter` is true. */
 void wave_set_build(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);

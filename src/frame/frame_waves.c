@@ -13,8 +13,14 @@ void frame_waves_build(const frame *f, frame_waves *waves)
     wave_set_build(f, &f->close, frame_shutter(f), true, &waves->shutter);
     wave_set_place(f, &f->close, now, true, &waves->now);
     skyline_copy(&waves->shutter, &waves->now);
-    if (s->camera_moves)
-        wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
+    if (!s->camera_moves)
+        return;
+    wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
+    for (int i = 0; i < 2; i++) {
+        const camera_rays open = camera_at(f, 0.5 * i), close = camera_at(f, 0.5 * (i + 1));
+        wave_set_sweep(f, &open, &close, 0.5 * i, 0.5 * (i + 1), &waves->halves[i]);
+        skyline_copy(i > 0 ? &waves->shutter : &waves->open, &waves->halves[i]);
+    }
 }
 
 double shutter_fraction(const mgt_quality *q, uint64_t m)

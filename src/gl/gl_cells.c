@@ -52,7 +52,7 @@ static void plan_lists(cells_run *c)
 {
     CellsData *d = &c->data;
     const int64_t tiles = d->tiles, pixels = tiles * TILE_PIXELS;
-    const size_t slot = (size_t)(1 + d->moves) * (sizeof(TileData) + (size_t)c->run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave)));
+    const size_t slot = sizeof(TileData) + (size_t)c->run->wave_stride * (sizeof(TileWave) + sizeof(SearchWave));
     const int64_t most = batch_bytes / slot > 64 ? (int64_t)(batch_bytes / slot) : 64;
     const int64_t point_most = (int64_t)(batch_bytes / (TILE_FLOATS(c->frame->data.hit_rows) * sizeof(float)));
     d->most_jobs = least(JOBS_A_TILE * tiles + LEAST_JOBS, (int64_t)1 << 24);
@@ -84,10 +84,7 @@ static int pool_of(const cells_run *c)
 }
 
 /* Number of sets of waves: see upload_sets(). */
-static size_t sets_of(const cells_run *c)
-{
-    return LEAF_INSTANTS + (size_t)(c->parts[CELLS_WHOLE] + c->parts[CELLS_PARTS] + c->parts[CELLS_SHARP] + CELL_CLASSES * c->data.moves);
-}
+static size_t sets_of(const cells_run *c) { return LEAF_INSTANTS + (size_t)(c->parts[CELLS_WHOLE] + c->parts[CELLS_PARTS] + c->parts[CELLS_SHARP]); }
 
 /* Reserves all buffers. MGT_ERROR_UNSUPPORTED: one is larger than this OpenGL allows. */
 static mgt_status reserve(cells_run *c)
@@ -97,8 +94,7 @@ static mgt_status reserve(cells_run *c)
     const gl_api *gl = &g->gl;
     const reporter *r = c->run->r;
     const CellsData *d = &c->data;
-    const size_t leaf = LEAF_VECTORS * 16, cameras = 1 + (size_t)d->moves;
-    const size_t slots = (size_t)d->slots * cameras;
+    const size_t leaf = LEAF_VECTORS * 16, slots = (size_t)d->slots;
     const struct {
         gl_buffer *buffer;
         size_t size;
@@ -202,30 +198,21 @@ static mgt_status upload_set(cells_run *c, size_t index)
     return upload_foam(c, index);
 }
 
-/* The camera's rays at the fraction `share` of the shutter, which are always those of its closing if the camera does not move. */
-static camera_rays camera_of(const cells_run *c, double share)
-{
-    const gl_job *job = c->run->job;
-    return c->data.moves ? job->camera_at(job->camera_user, share) : c->frame->close;
-}
-
 /* Computes and uploads all sets of waves, in the order of set_of_part() and set_of_instant() in cells_job.glsl. */
 static mgt_status upload_sets(cells_run *c)
 {
-    const mgt_scene *s = c->frame->scene;
+    const gl_job *job = c->run->job;
     size_t index = 0;
     mgt_status status = MGT_OK;
     for (int k = 0; k < CELL_CLASSES; k++)
-        for (int i = 0; i < c->parts[k] + c->data.moves && status == MGT_OK; i++) {
-            const cell_time part = cell_part(s, c->parts[k], i);
-            const camera_rays camera = camera_of(c, part.share);
-            gl_place_waves(c->run, &camera, part.time, c->data.moves && i == 0);
+        for (int i = 0; i < c->parts[k] && status == MGT_OK; i++) {
+            gl_place_sweep(c->run, (double)i / c->parts[k], (i + 1.0) / c->parts[k]);
             status = upload_set(c, index++);
         }
     for (int i = 0; i < LEAF_INSTANTS && status == MGT_OK; i++) {
-        const cell_time instant = cell_instant(s, i);
-        const camera_rays camera = camera_of(c, instant.share);
-        wave_set_build(c->frame, &camera, instant.time, false, c->g->waves);
+        const double instant = cell_instant(i);
+        const camera_rays camera = job->camera_at(job->camera_user, instant);
+        wave_set_build(c->frame, &camera, frame_part(c->frame, instant, instant), false, c->g->waves);
         status = upload_set(c, index++);
     }
     return status;
@@ -304,20 +291,12 @@ static mgt_status run_tiles(cells_run *c, gl_program program) { return run_group
 
 /* ---- the picture of pixels ---- */
 
-/* Sorts the waves for the band's tiles and searches first hits: over the whole shutter, or at both of its ends if the camera moves. */
+/* Sorts the waves of the whole shutter for the band's tiles and searches first hits. */
 static mgt_status sort_band(cells_run *c, const gl_band *b)
 {
-    const mgt_scene *s = c->frame->scene;
-    const FrameData *data = &c->frame->data;
-    mgt_status status = MGT_OK;
-    for (int i = 0; i <= c->data.moves && status == MGT_OK; i++) {
-        const cell_time part = cell_part(s, 1, i);
-        const camera_rays camera = camera_of(c, part.share);
-        const bool opens = i < c->data.moves;
-        gl_place_waves(c->run, &camera, part.time, opens);
-        status = gl_sort_tiles(data, c->run, b, opens ? b->tiles : 0, !opens && c->data.moves ? b->tiles : 0);
-    }
-    return status == MGT_OK ? gl_search_nodes(c->run, b->tiles * (1 + (uint32_t)c->data.moves)) : status;
+    gl_place_sweep(c->run, 0, 1);
+    const mgt_status status = gl_sort_tiles(&c->frame->data, c->run, b, 0, 0);
+    return status == MGT_OK ? gl_search_nodes(c->run, b->tiles) : status;
 }
 
 /* Makes the first leaves of a band, one per pixel. */
@@ -325,8 +304,6 @@ static mgt_status plant_band(cells_run *c, uint32_t row)
 {
     gl_renderer *g = c->g;
     const gl_band b = gl_band_at(c->run, row);
-    PassData pass = b.pass;
-    pass.open_slots = c->data.moves ? (int)b.tiles : 0;
     mgt_status status = gl_see_band(c->run, &b);
     if (status == MGT_OK)
         status = sort_band(c, &b);
@@ -334,9 +311,9 @@ static mgt_status plant_band(cells_run *c, uint32_t row)
         return status;
     gl_pass_begin(g, "shade");
     bind(c);
-    status = use(c, PROGRAM_CELLS_PLANT, &pass);
+    status = use(c, PROGRAM_CELLS_PLANT, &b.pass);
     if (status == MGT_OK) {
-        g->gl.DispatchCompute((GLuint)pass.columns, (GLuint)pass.rows * GROUPS_A_TILE, 1);
+        g->gl.DispatchCompute((GLuint)b.pass.columns, (GLuint)b.pass.rows * GROUPS_A_TILE, 1);
         barrier_after(&g->gl);
     }
     const mgt_status ended = gl_pass_end(g, c->run->r);
@@ -481,7 +458,6 @@ static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL
         .instant = -1,
         .parts_1 = parts[1],
         .parts_2 = parts[2],
-        .moves = f->scene->camera_moves,
         .sky_black = f->data.sky_black,
         .by_coverage = q->target_rmse > 0,
         .by_display = !f->data.sky_black && !(q->target_rmse > 0),
@@ -491,6 +467,7 @@ static CellsData data_of(const gl_job *job, const frame *f, const int parts[CELL
         .target_displayed = (float)q->target_displayed,
         .seed_low = (int)(uint32_t)q->seed,
         .seed_high = (int)(uint32_t)(q->seed >> 32),
+        .moves = f->scene->camera_moves,
     };
 }
 
@@ -532,7 +509,7 @@ mgt_status gl_cells_render(gl_renderer *g, const gl_job *job, const reporter *r)
     c.data = data_of(job, colored, c.parts);
     mgt_status status = reserve_pictures(g, &job->area, r);
     if (status == MGT_OK)
-        status = gl_run_begin(&run, g, &own, 1 + (size_t)c.data.moves, r);
+        status = gl_run_begin(&run, g, &own, 1, r);
     if (status != MGT_OK)
         return status;
     const int rounds = colored->scene->quality.target_rmse > 0 || colored->scene->quality.target_displayed > 0 ? MOST_ROUNDS : SAMPLE_ROUNDS;

@@ -20,7 +20,10 @@ static const size_t band_bytes = (size_t)256 << 20, software_band_bytes = (size_
 static const uint64_t prompt_samples = (uint64_t)1 << 20;
 
 /* Whether each tile is needed for two cameras, those at both ends of the shutter. */
-static bool needs_open(const gl_run *run) { return run->waves == MGT_WAVES_SHUTTER && run->job->frame->scene->camera_moves; }
+static bool needs_open(const frame *f)
+{
+    return f->scene->camera_moves && !frame_from_middle(f) && method_of(f->scene->quality.method)->properties.waves == MGT_WAVES_SHUTTER;
+}
 
 /* ---- memory ---- */
 
@@ -114,16 +117,34 @@ static void find_skylines(gl_run *run)
 {
     const frame *f = run->job->frame;
     find_skyline(run, &f->close, frame_shutter(f), 0);
-    if (f->scene->camera_moves)
+    if (needs_open(f))
         find_skyline(run, &f->open, (interval){f->scene->time - f->scene->shutter, 0}, 1);
+}
+
+static void set_skyline(const gl_run *run, bool opens)
+{
+    ViewData *view = &run->g->waves->view;
+    view->skyline_top = run->crests[opens];
+    view->skyline = view->skyline_top > 0 ? 1 + opens : SKYLINE_NONE;
 }
 
 void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time, bool opens)
 {
-    ViewData *view = &run->g->waves->view;
     wave_set_place(run->job->frame, camera, time, true, run->g->waves);
-    view->skyline_top = run->crests[opens];
-    view->skyline = view->skyline_top > 0 ? 1 + opens : SKYLINE_NONE;
+    set_skyline(run, opens);
+}
+
+static camera_rays camera_of(const gl_run *run, double share)
+{
+    const gl_job *job = run->job;
+    return share >= 1 ? job->frame->close : share <= 0 ? job->frame->open : job->camera_at(job->camera_user, share);
+}
+
+void gl_place_sweep(const gl_run *run, double from, double to)
+{
+    const camera_rays open = camera_of(run, from), close = camera_of(run, to);
+    wave_set_sweep(run->job->frame, &open, &close, from, to, run->g->waves);
+    set_skyline(run, false);
 }
 
 /* Size of the uniform data of all passes over one set. They stay valid until the set after the next one. */
@@ -283,33 +304,40 @@ mgt_status gl_step_done(gl_run *run, double steps)
 
 /* ---- methods ---- */
 
-/* Prepares the band's tiles for the part of the shutter between its fractions `from` and `to`, for the cameras at both ends if the camera moves. The part from
- * 1 to 1 is the instant at which the shutter closes. */
+/* Prepares the band's tiles for the part of the shutter between its fractions `from` and `to`: if the camera moves, for the cameras at both ends, or for that in
+ * the middle of its way. The part from 1 to 1 is the instant at which the shutter closes. */
 static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from, double to)
 {
-    const gl_job *job = run->job;
-    const frame *f = job->frame;
-    const mgt_scene *s = f->scene;
-    const double open = s->time - (1 - from) * s->shutter, close = s->time - (1 - to) * s->shutter;
-    const camera_rays camera = to < 1 ? job->camera_at(job->camera_user, to) : f->close;
+    const frame *f = run->job->frame;
+    const bool both = needs_open(f);
     mgt_status status = MGT_OK;
-    if (needs_open(run)) {
-        const camera_rays before = from > 0 ? job->camera_at(job->camera_user, from) : f->open;
-        gl_place_waves(run, &before, (interval){open, 0}, true);
-        status = sort_tiles(run, b, b->tiles, 0);
+    if (frame_from_middle(f)) {
+        gl_place_sweep(run, from, to);
+    } else {
+        const camera_rays close = camera_of(run, to);
+        if (both) {
+            const camera_rays open = camera_of(run, from);
+            gl_place_waves(run, &open, frame_part(f, from, from), true);
+            status = sort_tiles(run, b, b->tiles, 0);
+        }
+        gl_place_waves(run, &close, both ? frame_part(f, to, to) : frame_part(f, from, to), false);
     }
-    const interval part = {0.5 * (open + close), 0.5 * (close - open)};
-    gl_place_waves(run, &camera, s->camera_moves ? (interval){close, 0} : part, false);
     if (status == MGT_OK)
-        status = sort_tiles(run, b, 0, needs_open(run) ? b->tiles : 0);
-    return status == MGT_OK ? gl_search_nodes(run, needs_open(run) ? 2 * b->tiles : b->tiles) : status;
+        status = sort_tiles(run, b, 0, both ? b->tiles : 0);
+    return status == MGT_OK ? gl_search_nodes(run, both ? 2 * b->tiles : b->tiles) : status;
 }
 
-/* Shades a band by a filtered method: the mean over the parts of the shutter. Only methods podee-* have more than one part. */
+/* Number of parts of the shutter: podee-* may be asked for several, and a moving camera has two for methods that see it from the middle of its way. */
+static uint32_t parts_of(const frame *f)
+{
+    const mgt_quality *q = &f->scene->quality;
+    return q->path_segments > 1 ? q->path_segments : frame_from_middle(f) ? 2 : 1;
+}
+
+/* Shades a band by a filtered method: the mean over the parts of the shutter. */
 static mgt_status render_filtered(gl_run *run, const gl_band *b)
 {
-    const mgt_quality *q = &run->job->frame->scene->quality;
-    const uint32_t parts = q->path_segments > 1 ? q->path_segments : 1;
+    const uint32_t parts = parts_of(run->job->frame);
     mgt_status status = MGT_OK;
     for (uint32_t i = 0; i < parts && status == MGT_OK; i++) {
         const double from = run->waves == MGT_WAVES_INSTANT ? 1 : (double)i / parts;
@@ -318,7 +346,7 @@ static mgt_status render_filtered(gl_run *run, const gl_band *b)
         pass.clear = i == 0;
         pass.weight = 1.0f / (float)parts;
         pass.write_depth = run->job->shaded_depth && i + 1 == parts;
-        pass.open_slots = needs_open(run) ? (int)b->tiles : 0;
+        pass.open_slots = needs_open(run->job->frame) ? (int)b->tiles : 0;
         if (status == MGT_OK)
             status = run_pixels(run, &pass, "shade", run->program);
         if (status == MGT_OK)
@@ -525,12 +553,13 @@ mgt_status gl_prepare_objects(const gl_run *run)
 }
 
 /* Number of steps of a band: parts of the shutter, or point samples. */
-static double count_steps(const mgt_quality *q)
+static double count_steps(const frame *f)
 {
+    const mgt_quality *q = &f->scene->quality;
     const uint64_t all = quality_samples(q) - q->sample_first;
     if (method_of(q->method)->way == METHOD_SAMPLES)
         return (double)(q->sample_count ? q->sample_count : all);
-    return q->path_segments > 1 ? q->path_segments : 1;
+    return parts_of(f);
 }
 
 static mgt_status prepare_tables(const gl_run *run)
@@ -572,7 +601,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     if (status == MGT_OK)
         status = reserve_layers(g, job, r);
     if (status == MGT_OK)
-        status = gl_run_begin(&run, g, job, method->properties.waves == MGT_WAVES_SHUTTER && job->frame->scene->camera_moves ? 2 : 1, r);
+        status = gl_run_begin(&run, g, job, needs_open(job->frame) ? 2 : 1, r);
     if (status == MGT_OK && shades_pixels(job))
         status = prepare_tables(&run);
     if (status == MGT_OK && run.objects)
@@ -580,7 +609,7 @@ mgt_status gl_frame_render(gl_renderer *g, const gl_job *job, const reporter *r)
     if (status != MGT_OK)
         return status;
     const uint32_t bands = (run.end_row - run.first_row + run.band_rows - 1) / run.band_rows;
-    run.steps = bands * count_steps(q);
+    run.steps = bands * count_steps(job->frame);
     for (uint32_t row = run.first_row; row < run.end_row && status == MGT_OK; row += run.band_rows)
         status = render_band(&run, row);
     gl_run_end(&run);

@@ -38,6 +38,9 @@ gl_band gl_band_at(const gl_run *run, uint32_t row);
 /* Places the frame's waves before a camera, in g->waves. `opens`: their skyline is that of the shutter's opening; otherwise that of its closing. */
 void gl_place_waves(const gl_run *run, const camera_rays *camera, interval time, bool opens);
 
+/* Places the waves of the part of the shutter between two fractions of it by wave_set_sweep(), in g->waves. */
+void gl_place_sweep(const gl_run *run, double from, double to);
+
 /* Sorts the waves of g->waves for the band's tiles, which are stored from `first_slot` on. `open_slots` is PassData.open_slots. */
 mgt_status gl_sort_tiles(const FrameData *data, const gl_run *run, const gl_band *b, uint32_t first_slot, uint32_t open_slots);
 

@@ -55,8 +55,9 @@ const method_row method_rows[] =
             {
                 .properties = {0, "mangata", "this library's own closed form", MGT_WAVES_SHUTTER, CPU_AND_GL, LAYERS},
                 .way = METHOD_FILTERED,
+                .from_middle = true,
                 .hits = 2,
-                .shader = &(const method_shader){"shade_slopes.comp", "glitter.k", "glitter_result"},
+                .shader = &(const method_shader){"shade_slopes.comp", "glitter.k", NULL},
             },
         [MGT_METHOD_REFERENCE] =
             {
@@ -126,6 +127,7 @@ const method_row method_rows[] =
                 .way = METHOD_PASS,
                 .base = MGT_METHOD_MANGATA,
                 .pass = METHOD_PASS_ADAPTIVE,
+                .from_middle = true,
                 .hits = 1,
             },
         [MGT_METHOD_GGX_MOMENTS] =

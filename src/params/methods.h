@@ -34,6 +34,7 @@ typedef struct method_row {
     mgt_method base; /* METHOD_PASS: the method that renders its pictures and the layers that the pass does not change */
     method_pass pass;
     method_transition transition;
+    bool from_middle;            /* a moving camera is seen from the middle of its way, see CameraMotion; else from both ends of the shutter */
     bool keeps_phases;           /* unresolved waves are evaluated one by one, not as a sum */
     uint32_t hits;               /* number of hits, one above the other, of a pixel in grazing water near the camera; 0: no tile of the method is grazing */
     uint32_t tables;             /* METHOD_LEAN_MAP and METHOD_PODEE_TABLES */

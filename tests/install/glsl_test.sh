@@ -44,7 +44,7 @@ void main()
     float real = 0.0, mask = 0.0, scale = 0.0;
     PixelRay p = pixel_ray_filtered(0, gl_FragCoord.x + real, gl_FragCoord.y);
     SlopeState s = slope_state(0, p.ray, HitEstimate(0.0, mask, 1.0, vec2(0.0), vec2(0.0)));
-    color = vec4(glitter_result(0, p, s, s).color, 1.0 + scale);
+    color = vec4(glitter_result(0, p, s).color, 1.0 + scale);
 }'
 if command -v glslangValidator >/dev/null; then
     for version in "450 core" "300 es"; do

@@ -284,7 +284,7 @@ static double unresolved_error(double radius_deg, double *median)
             kernel_bench_tile(b, true, true, x, y);
             assert_int_equal(b->tile.data.resolved_count + b->tile.data.mixed_count, 0);
             const SlopeState s = slope_state(&b->cx, kernel_bench_ray(b, x, y), (HitEstimate){0, 0, 0, {0, 0}, {0, 0}});
-            const double ours = (double)glitter_coverage(&b->cx, s, s);
+            const double ours = (double)glitter_coverage(&b->cx, s);
             /* Brute force: the share of the slopes seen by the eye that mirror the light, over a lattice around the mirror slope. */
             enum { SIDE = 160 };
             const double view[3] = {(double)s.view.x, (double)s.view.y, (double)s.view.z}, radius = tan(scene.light.angular_radius_deg * 0.017453292519943295);

@@ -10,7 +10,7 @@ const METHODS = {
   bruneton: { about: "Bruneton et al. 2010: Gaussian slopes", program: ["slopes.frag", "kernels/baselines/bruneton.k", "bruneton_result"], byLanes: true },
   leadr: { about: "Dupuy et al. 2013: a tiled map of slope moments", program: ["slopes.frag", "kernels/baselines/leadr.k", "leadr_result"], map: true },
   taa: { about: "temporal anti-aliasing: eight frames of none", program: ["points.frag"], blends: true },
-  mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k", "glitter_result"], byLanes: true },
+  mangata: { about: "this library's closed form", program: ["slopes.frag", "kernels/glitter/glitter.k"], byLanes: true },
 };
 // As src/frame/whole_frame.h has them: frames of taa, and where in the pixel each looks (Halton 2, 3).
 const TAA_FRAMES = 8;

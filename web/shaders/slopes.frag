@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Methods that shade a pixel from its slopes; method.k is the method's kernel, method_result its function.
+ * Methods that shade a pixel from its slopes; method.k is the method's kernel, method_result its function, but for
+ * `mangata`, which sees the whole shutter in one state.
  */
 #include "web_data.glsl"
 #ifdef LEAN_MAP
@@ -8,6 +9,9 @@
 #endif
 #include "method.k"
 #include "kernels/glitter/foam_over.k"
+#ifndef method_result
+#define method_result(cx, p, open, close) glitter_result(cx, p, close)
+#endif
 
 layout(location = 0) out vec4 shown;
 

@@ -33,7 +33,7 @@ shared double level_cost[LEAF_LEVELS]; /* evaluations of a cell; 0: unknown */
 shared double level_below[LEAF_LEVELS];
 shared float level_worth[LEAF_LEVELS];
 
-int parts_of_level(int level) { return parts_of_class(leaf_class(0, level, dark)); }
+int parts_of_level(int level) { return parts_of_class(leaf_class(0, level, dark, cells_data.moves != 0)); }
 
 /* Computes the cost and the worth of splits on all levels, after the cost of a level became known. The cost of a level that is not known follows from that of
  * the nearest coarser level. */

@@ -15,15 +15,14 @@ Job job_at(int place)
     return Job(int(state[at]), ivec2(how & 255, how >> 8 & 255), how >> 16);
 }
 
-/* Number of a class's first set. Each class has a set for each piece of the shutter, or for each end of a piece if the camera moves. The sets of points come
- * last. */
+/* Number of a class's first set. Each class has a set for each piece of the shutter. The sets of points come last. */
 int first_set(int kind)
 {
     int sets = 0;
     for (int k = 0; k < kind; k++)
-        sets += parts_of_class(k) + cells_data.moves;
+        sets += parts_of_class(k);
     return sets;
 }
 
-int set_of_part(int kind, bool open) { return first_set(kind) + cells_data.part + (open ? 0 : cells_data.moves); }
+int set_of_part(int kind) { return first_set(kind) + cells_data.part; }
 int set_of_instant() { return first_set(CELL_CLASSES) + cells_data.instant; }

@@ -82,7 +82,7 @@
 
 #define SET_WAVE_VECTORS 6
 #define SET_SORT_VECTORS 2
-#define SET_VIEW_VECTORS 6
+#define SET_VIEW_VECTORS 10
 #define SET_VIEWS (CELL_SIZES + 1) /* of pixels, then of each size of cells */
 
 /* ---- a leaf in the pool, words of 16 bytes ---- */

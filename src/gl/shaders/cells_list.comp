@@ -41,7 +41,7 @@ int kind_of(Leaf l, bool chosen)
 void list_job(int job, int across, int down, int count, int group)
 {
     int at = cells_data.jobs_at + JOB_WORDS * job;
-    int kind = leaf_class(0, (across + down) / 2, state[words + TILE_DARK] != 0u);
+    int kind = leaf_class(0, (across + down) / 2, state[words + TILE_DARK] != 0u, cells_data.moves != 0);
     state[at] = uint(tile);
     state[at + 1] = uint(across | down << 8 | kind << 16);
     state[at + 2] = 0u;

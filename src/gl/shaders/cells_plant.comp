@@ -39,14 +39,7 @@ CellResult pixel_result(ivec2 at)
     PixelRay p = pixel_ray_filtered(0, float(at.x), float(at.y));
     if (p.water <= 0.0f)
         return nothing_but_sky(p);
-    SlopeState close = slope_state(0, p.ray, pixel_estimate(at));
-    SlopeState open = close;
-    if (pass_data.open_slots != 0) {
-        tile_slot += pass_data.open_slots;
-        open = slope_state(0, pixel_ray_filtered(0, float(at.x), float(at.y)).ray, pixel_estimate(at));
-        tile_slot -= pass_data.open_slots;
-    }
-    return cell_result_of(0, p, open, close);
+    return cell_result_of(0, p, slope_state(0, p.ray, pixel_estimate(at)));
 }
 
 /* Stores how many waves the tile's pixels evaluate, and whether the tile mirrors no light. One invocation per tile calls it. */

@@ -29,11 +29,11 @@ CellResult nothing_but_sky(PixelRay p)
     return cell;
 }
 
-/* Height of the hit of the pixel two rows below. Infinite: there is no such pixel, the camera moves, the shutter has several pieces, or the sky is black. */
+/* Height of the hit of the pixel two rows below. Infinite: there is no such pixel, the shutter has several pieces, or the sky is black. */
 float height_below(Job job, ivec2 pixel)
 {
     ivec2 tile = ivec2(job.tile % cells_data.columns, job.tile / cells_data.columns), below = pixel + ivec2(0, 2);
-    if (cells_data.sky_black != 0 || cells_data.moves != 0 || parts_of_class(job.kind) != 1 || tile.y * TILE_HEIGHT + below.y >= cells_data.height)
+    if (cells_data.sky_black != 0 || parts_of_class(job.kind) != 1 || tile.y * TILE_HEIGHT + below.y >= cells_data.height)
         return INFINITE;
     int in_tile = below.y < TILE_HEIGHT ? job.tile : job.tile + cells_data.columns;
     return pixel_data[in_tile * TILE_PIXELS + below.y % TILE_HEIGHT * TILE_WIDTH + below.x].y;
@@ -51,19 +51,12 @@ float search_start(Job job, ivec2 pixel, vec2 place)
     return row_start(0, above, inverse_speed_of(0, above), ray, inverse_speed_of(0, ray), along).along;
 }
 
-/* Selects the job's tile and waves at the opening or at the closing of the piece of the shutter. */
-void look(Job job, int slot, bool open)
-{
-    tile_slot = slot + (open ? cells_data.slots : 0);
-    turn_to_set(set_of_part(job.kind, open));
-}
-
 /* First estimate of a cell's hit. `height` is that of the leaf that the cell is a part of. In grazing tiles it says nothing of the cell's hit, and the hit is
  * searched for. */
-HitEstimate estimate_of(Job job, int slot, ivec2 pixel, vec2 place, float height)
+HitEstimate estimate_of(Job job, ivec2 pixel, vec2 place, float height)
 {
     HitEstimate estimate;
-    bool grazing = TILE(0).grazing != 0 || (cells_data.moves != 0 && tile_data[slot + cells_data.slots].grazing != 0);
+    bool grazing = TILE(0).grazing != 0;
     estimate.height = height;
     estimate.search = grazing || CHOPPY(0) != 0 ? 1.0f : 0.0f;
     estimate.from = grazing ? search_start(job, pixel, place) : 0.0f;
@@ -74,19 +67,13 @@ HitEstimate estimate_of(Job job, int slot, ivec2 pixel, vec2 place, float height
 
 CellResult cell_result(Job job, int slot, ivec2 pixel, vec2 place, float height)
 {
-    look(job, slot, false);
+    tile_slot = slot;
+    turn_to_set(set_of_part(job.kind));
     PixelRay p = pixel_ray_filtered(0, place.x, place.y);
     if (p.water <= 0.0f)
         return nothing_but_sky(p);
-    HitEstimate estimate = estimate_of(job, slot, pixel, place, height);
-    SlopeState close = slope_state(0, p.ray, estimate);
-    SlopeState open = close;
-    if (cells_data.moves != 0) {
-        look(job, slot, true);
-        open = slope_state(0, pixel_ray_filtered(0, place.x, place.y).ray, estimate);
-        look(job, slot, false);
-    }
-    return cell_result_of(0, p, open, close);
+    HitEstimate estimate = estimate_of(job, pixel, place, height);
+    return cell_result_of(0, p, slope_state(0, p.ray, estimate));
 }
 
 /* Adds the result of a piece of the shutter, with weight `share`, to the cell's means, of which the fraction `own` is not its leaf's. The height is that of the

@@ -29,14 +29,11 @@ void sort_cells(int place, int slot)
         return;
     frame_halvings = max(job.halvings.x, job.halvings.y);
     int parts = job.halvings.x + job.halvings.y > 0 && cells_data.sky_black == 0 ? 1 << job.halvings.y : 0;
-    for (int end = 0; end <= cells_data.moves; end++) {
-        bool open = end < cells_data.moves;
-        turn_to_set(set_of_part(job.kind, open));
-        view_data = set_view(1 + cell_size(job.halvings.x, job.halvings.y));
-        tile_slot = slot + (open ? cells_data.slots : 0);
-        sort_tile(job.tile % cells_data.columns, job.tile / cells_data.columns, open ? 0 : cells_data.slots * cells_data.moves, parts);
-        barrier();
-    }
+    turn_to_set(set_of_part(job.kind));
+    view_data = set_view(1 + cell_size(job.halvings.x, job.halvings.y));
+    tile_slot = slot;
+    sort_tile(job.tile % cells_data.columns, job.tile / cells_data.columns, 0, parts);
+    barrier();
     if (gl_LocalInvocationIndex == 0u)
         state[cells_data.jobs_at + JOB_WORDS * place + 2] = uint(tile_data[tile_slot].resolved_count + tile_data[tile_slot].mixed_count);
 }

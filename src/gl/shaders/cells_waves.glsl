@@ -43,5 +43,7 @@ ViewData set_view(int size)
     vec4 d = uintBitsToFloat(wave_sets[at + 3]), f = uintBitsToFloat(wave_sets[at + 4]);
     uvec4 e = wave_sets[at + 4], g = wave_sets[at + 5];
     CameraRays rays = CameraRays(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w);
-    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), uintBitsToFloat(g.y), uintBitsToFloat(g.z), 0.0f);
+    vec4 h = uintBitsToFloat(g), x = uintBitsToFloat(wave_sets[at + 6]), y = uintBitsToFloat(wave_sets[at + 7]), z = uintBitsToFloat(wave_sets[at + 8]);
+    CameraMotion motion = CameraMotion(x.x, x.y, x.z, x.w, y.x, y.y, y.z, y.w, z.x, z.y, z.z, z.w);
+    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), h.y, h.z, h.w, motion, uintBitsToFloat(wave_sets[at + 9].x), 0.0f, 0.0f, 0.0f);
 }

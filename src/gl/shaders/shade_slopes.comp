@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Methods that shade a pixel from its slopes. The text is assembled once for each method: method.k is its kernel, method_result the kernel's function.
+ * Methods that shade a pixel from its slopes. The text is assembled once for each method: method.k is its kernel, method_result the kernel's function,
+ * but for `mangata`.
  *
  * Few pixels need a search or a second look at the surface. A workgroup gathers these pixels, so that neighbouring invocations process them.
  */
@@ -100,6 +101,9 @@ SlopeState state_where(bool wanted, vec3 ray, ivec2 pixel)
     return slopes_at(0, ray, look.along, look.surface);
 }
 
+#ifndef method_result /* method `mangata` sees the whole shutter in one state */
+#define method_result(cx, p, open, close) glitter_result(cx, p, close)
+#endif
 #define METHOD_STATE SlopeState
 #define OVER_STATE
 #include "shade.glsl"

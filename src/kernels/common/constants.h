@@ -195,7 +195,7 @@
 #define LEAF_INSTANTS 8                  /* instants of the shutter that points are spread over */
 
 /* Classes of pixels and cells by the pieces of the shutter that they see, see leaf_class(). */
-#define CELLS_WHOLE 0 /* the shutter as one piece: pixels, and cells of tiles that mirror no light */
+#define CELLS_WHOLE 0 /* the shutter as one piece: pixels, and if the camera stands still cells of tiles that mirror no light */
 #define CELLS_PARTS 1 /* pieces */
 #define CELLS_SHARP 2 /* the pieces of sharp cells */
 #define CELL_CLASSES 3
