@@ -15,6 +15,8 @@
 
 enum { MAX_BYTES = 16 * 1024 * 1024, BINS = 256, DIRECTIONS = 72, PATH_SIZE = 4096 };
 
+static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf"; /* of UTF-8; some editors write it */
+
 static const double DEGREE = SPECTRUM_PI / 180, MISSING = 999, LOWEST = 1e-4, HIGHEST = 100 /* Hz */;
 
 /* ---- files -------------------------------------------------------------------------------------------------- */
@@ -29,8 +31,14 @@ char *buoy_file_read(const char *path, size_t *length, scene_error *error)
 {
     regular_file read;
     char *text = regular_file_read(&read, path, false, MAX_BYTES, "is larger than 16 MiB", length);
-    if (text == NULL)
+    if (text == NULL) {
         refuse_file(error, scene_error_of_fault(read.fault), path, read.what);
+        return NULL;
+    }
+    if (strncmp(text, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK)) == 0) {
+        *length -= strlen(BYTE_ORDER_MARK);
+        memmove(text, text + strlen(BYTE_ORDER_MARK), *length + 1);
+    }
     return text;
 }
 

@@ -18,7 +18,7 @@ typedef enum buoy_format { BUOY_TABLE, BUOY_NDBC, BUOY_DATAWELL } buoy_format;
 /* The format by the beginning of a file. Here and below texts are NUL-terminated, as buoy_file_read() returns them. */
 buoy_format buoy_format_of(const char *text);
 
-/* Reads a whole file of at most 16 MiB, and appends a NUL. The caller frees the text. NULL: *error is filled. */
+/* Reads a whole file of at most 16 MiB without its byte order mark, and appends a NUL. The caller frees the text. NULL: *error is filled. */
 char *buoy_file_read(const char *path, size_t *length, scene_error *error);
 
 /* The plain table of a file of another format than BUOY_TABLE, NUL-terminated. The caller frees it. NULL: *error is filled with "path:line:column: …". */
