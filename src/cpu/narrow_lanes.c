@@ -187,6 +187,7 @@ static void store_way(const struct kernel_context *cx, tile_ends *out, size_t i,
     store(out->way + i, seen.way);
     store(out->wet + i, seen.wet);
     store(out->part + i, seen.part);
+    store(out->unsure + i, seen.unsure);
     if (!any_lane(seen.way > real(0.0f)))
         return;
     const vec3 from = turned(cx, left_at(cx, seen.from));
@@ -247,6 +248,11 @@ static void lanes_refracted(const narrow_scene *n, const tile_water *water, int 
         store(out->total + i, SELECT(total, real(1.0f), real(0.0f)));
         store_way(&cx, out, i, hit, seen);
         store(out->first + i, bent.total);
+        const mask unsure = seen.unsure > real(0.0f);
+        if (any_lane(unsure)) {
+            store(out->doubt + i, SELECT(unsure, real(1.0f), load(out->doubt + i)));
+            store_vector(out->toward, i, turned(&cx, bent.direction));
+        }
         const Spread s = turned_spread(&cx, spread_of(&cx, hit, bent, load_variation(water, i)));
         store_vector(out->spread, i, spread_after(&cx, s, seen.way + seen.found.after));
         const bool certified = n->data.method <= MGT_REFRACTION_HYBRID && !any_lane(load(out->doubt + i) > real(0.0f));

@@ -40,6 +40,8 @@ typedef struct tile_ends {
     float wet[TILE_PIXELS];       /* metres of `way` in water */
     float from[3][TILE_PIXELS];   /* the last hit with the surface, in the world's coordinates; not set where `way` is 0 */
     float part[TILE_PIXELS];      /* fraction of the light on this branch, SeenBehind.part */
+    float unsure[TILE_PIXELS];    /* SeenBehind.unsure */
+    float toward[3][TILE_PIXELS]; /* direction of the ray behind its first hit with the surface, in the world's coordinates; not set where `unsure` is 0 */
     float first[TILE_PIXELS];     /* 1: the ray is totally reflected at its first hit with the surface; else 0 */
     float spread[3][TILE_PIXELS]; /* shade_hits.spread */
     float terms[9][TILE_PIXELS];  /* the nine coefficients of Spread, which give the footprint for another `after`; set by distance-field, and by two-phase

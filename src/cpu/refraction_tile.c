@@ -154,30 +154,66 @@ void refraction_end_at(const refraction *r, tile_objects *o, size_t i, float las
         e->spread[k][i] = e->terms[k][i] + e->after[i] * (e->terms[3 + k][i] + e->after[i] * e->terms[6 + k][i]);
 }
 
+/* The ray from the pixel's first hit with the surface, or from its last one. */
+static trace_ray ray_behind(const refraction *r, const tile_objects *o, size_t i, bool first)
+{
+    const tile_ends *e = &o->ends;
+    const camera_rays *c = &r->camera;
+    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
+    const double side = r->frame->under ? -1 : 1, along = (double)o->met->along[i] * TRACE_START;
+    trace_ray ray = {.least = 0, .most = first ? e->unsure[i] : INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+        const double view = (double)o->met->view[axis][i] * (axis == 1 ? side : 1);
+        ray.origin[axis] = e->way[i] > 0 && !first ? e->from[axis][i] : (float)(foot[axis] + along * view);
+        ray.direction[axis] = first ? e->toward[axis][i] : e->direction[axis][i];
+    }
+    return ray;
+}
+
+/* Traces listed rays up to where they meet the surface again, where the layers do not tell whether something stops them before. Those that are stopped are left
+ * at their first hit with the surface. */
+static void trace_unsure(refraction *r, tile_objects *o, size_t count)
+{
+    tile_ends *e = &o->ends;
+    size_t unsure = 0;
+    uint16_t list[TILE_PIXELS];
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = o->list[k];
+        if (!(e->unsure[i] > 0))
+            continue;
+        o->rays[unsure] = ray_behind(r, o, i, true);
+        list[unsure++] = (uint16_t)i;
+    }
+    if (unsure == 0)
+        return;
+    trace_nearest(r->trace, unsure, o->rays, o->hits);
+    for (size_t k = 0; k < unsure; k++) {
+        const size_t i = list[k];
+        if (o->hits[k].triangle < 0)
+            continue;
+        e->way[i] = e->wet[i] = 0;
+        e->total[i] = e->first[i];
+        for (int axis = 0; axis < 3; axis++)
+            e->direction[axis][i] = e->toward[axis][i];
+    }
+    atomic_fetch_add_explicit(&r->traced, unsure, memory_order_relaxed);
+}
+
 /* Replaces doubtful ends of listed rays by traced ones; method distance-field traces all listed rays. They are traced together. Which ones these are depends on
  * the tile alone. */
 static void trace_doubtful(refraction *r, tile_objects *o, size_t count)
 {
     const bool searches = r->frame->scene->quality.refraction == MGT_REFRACTION_DISTANCE_FIELD;
     tile_ends *e = &o->ends;
-    const camera_rays *c = &r->camera;
-    const double foot[3] = {c->position[0] - r->world->origin[0], c->position[1], c->position[2] - r->world->origin[1]};
-    const double side = r->frame->under ? -1 : 1;
+    if (!searches)
+        trace_unsure(r, o, count);
     size_t doubtful = 0;
     uint16_t list[TILE_PIXELS];
     for (size_t k = 0; k < count; k++) {
         const size_t i = o->list[k];
         if (!searches && e->doubt[i] == 0)
             continue;
-        trace_ray *ray = &o->rays[doubtful];
-        const double along = (double)o->met->along[i] * TRACE_START;
-        for (int axis = 0; axis < 3; axis++) {
-            const double view = (double)o->met->view[axis][i] * (axis == 1 ? side : 1);
-            ray->origin[axis] = e->way[i] > 0 ? e->from[axis][i] : (float)(foot[axis] + along * view);
-            ray->direction[axis] = e->direction[axis][i];
-        }
-        ray->least = 0;
-        ray->most = INFINITY;
+        o->rays[doubtful] = ray_behind(r, o, i, false);
         list[doubtful++] = (uint16_t)i;
     }
     if (doubtful == 0)

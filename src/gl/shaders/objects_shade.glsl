@@ -21,10 +21,11 @@ struct RayEnd {
 /* A ray behind the surface, from the last point at which it met the surface. */
 struct TracedRay {
     vec3 from, direction;
-    float way;  /* length of the path from the pixel's hit to `from`, metres */
-    float wet;  /* metres of `way` in water */
-    float part; /* fraction of the pixel's light */
-    bool total; /* it is on the camera's side */
+    float way;    /* length of the path from the pixel's hit to `from`, metres */
+    float wet;    /* metres of `way` in water */
+    float part;   /* fraction of the pixel's light */
+    bool total;   /* it is on the camera's side */
+    float unsure; /* SeenBehind.unsure */
 };
 
 int ray_place(int pixel, int branch) { return WATER_FLOATS * pixel + WATER_RAYS + RAY_FLOATS * branch; }
@@ -40,6 +41,7 @@ TracedRay known_ray(int pixel, int branch)
     r.wet = water_data[i + 7];
     r.part = water_data[i + 8];
     r.total = water_data[i + 9] > 0.0f;
+    r.unsure = water_data[i + 10];
     return r;
 }
 
@@ -61,6 +63,7 @@ void keep_ray(int pixel, int branch, TracedRay r)
     water_data[i + 7] = r.wet;
     water_data[i + 8] = r.part;
     water_data[i + 9] = r.total ? 1.0f : 0.0f;
+    water_data[i + 10] = r.unsure;
 }
 
 void keep_light(int pixel, vec3 color)

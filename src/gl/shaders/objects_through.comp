@@ -41,7 +41,7 @@ void main()
     float error = 0.0f, part = 0.0f;
     bool traced = false, doubtful = false;
     for (int branch = 0; branch < 2; branch++) {
-        keep_ray(pixel, branch, TracedRay(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, false));
+        keep_ray(pixel, branch, TracedRay(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, false, 0.0f));
         if (!(part < LEAST_WHOLE))
             continue;
         ThroughEnd through = end_through(water, branch);

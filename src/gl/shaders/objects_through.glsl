@@ -78,6 +78,7 @@ ThroughEnd end_through(PixelWater w, int branch)
     through.ray.wet = s.wet;
     through.ray.part = s.part;
     through.ray.total = total;
+    through.ray.unsure = s.unsure;
     RayEnd end;
     end.triangle = f.shown > 0.0f ? layer_triangle(layer, ivec2(int(f.column), int(f.row))) : -1;
     end.ray = ray_of(s.from, f, 0.0f);
@@ -90,6 +91,6 @@ ThroughEnd end_through(PixelWater w, int branch)
     through.doubtful = narrow_data.edge_rays > 0 && is_doubtful(f, layer);
     through.traced = narrow_data.method == REFRACTION_HYBRID;
     if (through.traced)
-        through.traced = is_doubtful(f, layer) || passed_place(0, layer, s.from, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;
+        through.traced = s.unsure > 0.0f || is_doubtful(f, layer) || passed_place(0, layer, s.from, f, f.column >= 0.0f ? 1.0f : 0.0f).inside > 0.0f;
     return through;
 }

@@ -168,11 +168,11 @@
 #define LIST_DEEP 3
 #define LIST_TRACED 4
 #define LISTS 5
-#define WATER_FLOATS 41
+#define WATER_FLOATS 43
 #define WATER_THROUGH 17 /* place of the number that tells whether the pixel looks through the surface, see objects_pixel.glsl */
 #define WATER_LIGHT 18
 #define WATER_RAYS 21
-#define RAY_FLOATS 10
+#define RAY_FLOATS 11
 
 /* How often a ray behind the surface is followed when it meets the surface again. */
 #define MOST_AGAIN 6
