@@ -117,6 +117,8 @@ static tree_node *take_step(scene_tree *tree, tree_node *node, const path_step *
         goto memory;
     child->key = word;
     tree_append(node, child);
+    if (word == NULL)
+        node->source = override; /* which has made the list longer */
     return child;
 
 memory:

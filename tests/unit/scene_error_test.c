@@ -262,6 +262,8 @@ static void override_messages_name_the_option(void **state)
                  SCENE_ERROR_BAD_SCENE,
                  "--set camera.path=[{time: 1, position: [0, 5, 0], target: [0, 0, -...: camera.path stands beside camera.target of the scene, "
                  "which it replaces; allowed: one of them (--set 'camera={path: [...]}')");
+    assert_error(refused("mangata: 1\ncamera: {position: [0, 5, 0]}\n", "camera.position[3]=1"), SCENE_ERROR_BAD_SCENE,
+                 "--set camera.position[3]=1: camera.position is a list of 4; allowed: a list of 3 numbers [x, y, z], each -1e9 to 1e9 m");
     for (size_t i = 0; i < COUNT(cases); i++) {
         char expected[512];
         snprintf(expected, sizeof expected, "--set %s: %s", cases[i].override, cases[i].message);
