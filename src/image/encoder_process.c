@@ -224,29 +224,33 @@ static file_status wait_for_exit(encoder_process *process, int *exit_status, fil
     }
 }
 
-/* Last line that ffmpeg wrote to stderr. */
-static void last_message(const encoder_process *process, char *text, size_t capacity)
+/* The last lines that ffmpeg wrote to stderr, up to half the capacity, with "; " in between: the cause often stands before the last one. */
+static void last_messages(const encoder_process *process, char *text, size_t capacity)
 {
     struct stat info;
     text[0] = '\0';
     if (fstat(process->messages, &info) != 0)
         return;
-    off_t start = info.st_size > (off_t)capacity - 1 ? info.st_size - (off_t)(capacity - 1) : 0;
-    ssize_t length = pread(process->messages, text, capacity - 1, start);
+    const off_t most = (off_t)capacity / 2 - 1, start = info.st_size > most ? info.st_size - most : 0;
+    ssize_t length = pread(process->messages, text, (size_t)most, start);
     if (length < 0)
         length = 0;
     while (length > 0 && (text[length - 1] == '\n' || text[length - 1] == ' '))
         length--;
     text[length] = '\0';
-    char *line = strrchr(text, '\n');
-    if (line)
+    char *line = start > 0 ? strchr(text, '\n') : NULL;
+    if (line) /* the line before it is not whole */
         memmove(text, line + 1, strlen(line + 1) + 1);
+    while ((line = strchr(text, '\n')) != NULL) {
+        memmove(line + 1, line, strlen(line) + 1);
+        memcpy(line, "; ", 2);
+    }
 }
 
 static file_status encoder_failure(encoder_process *process, int exit_status, file_error *error)
 {
-    char message[256];
-    last_message(process, message, sizeof message);
+    char message[512];
+    last_messages(process, message, sizeof message);
     if (message[0])
         return file_error_set(error, FILE_WRITE, "%s: ffmpeg failed: %s", process->path, message);
     if (WIFSIGNALED(exit_status))

@@ -371,6 +371,7 @@ static void test_ffmpeg_fails(void **state)
         const char *script, *message;
     } cases[] = {
         {"#!/bin/sh\necho 'first' >&2\necho 'No such encoder' >&2\nexit 3\n", "No such encoder"},
+        {"#!/bin/sh\necho 'No space left' >&2\necho 'Error of stream 0:0 -- ' >&2\nexit 1\n", "ffmpeg failed: No space left; Error of stream 0:0 --"},
         {"#!/bin/sh\nexit 3\n", "status 3"},
         {"#!/bin/sh\nhead -c 1000 >/dev/null\nkill -9 $$\n", "signal 9"},
         {"#!/bin/sh\ncat >/dev/null\nexit 1\n", "status 1"},
