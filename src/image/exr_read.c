@@ -267,18 +267,36 @@ static exr_result_t read_pixels(exr_context_t context, float_image *image, const
     return code;
 }
 
+/* B44 packs half channels alone. Chunks without such channels are as large as their pixels, so that OpenEXRCore takes them for unpacked ones, but are in
+ * another order. */
+static bool is_b44_misread(exr_compression_t compression, const exr_attr_chlist_t *list)
+{
+    if (compression != EXR_COMPRESSION_B44 && compression != EXR_COMPRESSION_B44A)
+        return false;
+    for (int c = 0; c < list->num_channels; c++)
+        if (list->entries[c].pixel_type == EXR_PIXEL_HALF)
+            return false;
+    return true;
+}
+
 /* Refuses, with a reason, what this reader does not unpack. */
 static file_status check_kind(exr_context_t context, int part, const input_file *input, file_error *error)
 {
+    static const char allowed[] = "allowed: none, RLE, ZIPS, ZIP, PIZ, PXR24, and B44 of half channels";
     exr_storage_t storage;
     exr_compression_t compression;
+    const exr_attr_chlist_t *list = NULL;
     exr_result_t code = exr_get_storage(context, part, &storage);
     if (!code && storage != EXR_STORAGE_SCANLINE)
-        return file_error_set(error, FILE_BAD, "%s: tiled and deep EXR are not supported", input->path);
+        return file_error_set(error, FILE_BAD, "%s: tiled and deep EXR are not supported; allowed: scanlines", input->path);
     if (!code)
         code = exr_get_compression(context, part, &compression);
+    if (!code)
+        code = exr_get_channels(context, part, &list);
     if (!code && (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB))
-        return file_error_set(error, FILE_BAD, "%s: DWA compression is not supported", input->path);
+        return file_error_set(error, FILE_BAD, "%s: DWA compression is not supported; %s", input->path, allowed);
+    if (!code && is_b44_misread(compression, list))
+        return file_error_set(error, FILE_BAD, "%s: B44 compression without half channels is not supported; %s", input->path, allowed);
     return code ? bad_exr(input, code, error) : FILE_OK;
 }
 

@@ -497,6 +497,36 @@ static void test_exr_of_others(void **state)
     }
 }
 
+/* What would be unpacked wrongly is refused by its name, whatever follows the header. */
+static void test_exr_refused(void **state)
+{
+    test_folder *folder = *state;
+    char path[512];
+    static const struct {
+        char compression;
+        const char *message;
+    } cases[] = {{EXR_COMPRESSION_B44, "B44 compression without half channels is not supported; allowed: none, RLE"},
+                 {EXR_COMPRESSION_B44A, "B44 compression without half channels is not supported; allowed: none, RLE"},
+                 {EXR_COMPRESSION_DWAA, "DWA compression is not supported; allowed: none, RLE"},
+                 {EXR_COMPRESSION_DWAB, "DWA compression is not supported; allowed: none, RLE"}};
+    static const char key[] = "compression\0compression\0\1\0\0";
+    const float pixel = 1;
+    const picture_layer layer = {.name = "depth", .channels = 1, .pixels = &pixel};
+    assert_int_equal(picture_write_exr(in_folder(folder, "refused.exr", path), 1, 1, &layer, 1, NULL, NULL, NULL), FILE_OK);
+    size_t size;
+    unsigned char *bytes = file_bytes(path, &size), *at = memmem(bytes, size, key, sizeof key);
+    assert_non_null(at);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        float_image image;
+        file_error error = {0};
+        at[sizeof key] = (unsigned char)cases[i].compression;
+        write_bytes(path, bytes, size);
+        assert_int_equal(picture_read(&image, path, NULL, &error), FILE_BAD);
+        assert_non_null(strstr(error.text, cases[i].message));
+    }
+    free(bytes);
+}
+
 /* ---- damaged files ---- */
 
 /* Every beginning of a good file is an error, and no changed byte does more than give an error or other pixels. The last
@@ -663,6 +693,7 @@ int main(void)
         cmocka_unit_test(test_cryptomatte),
         IN_FOLDER(test_exr_refuses_bad_layers),
         IN_FOLDER(test_exr_of_others),
+        IN_FOLDER(test_exr_refused),
         IN_FOLDER(test_damaged_png),
         IN_FOLDER(test_damaged_pfm),
         IN_FOLDER(test_damaged_exr),
