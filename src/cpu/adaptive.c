@@ -157,7 +157,8 @@ static bool grow(const refinement *f, size_t tile, int across, int down, uint32_
     return true;
 }
 
-/* Appends the four cells of a leaf. A cell may begin its search at the hit of a pixel below if its class sees the shutter as one piece. `sum` starts with the values that the cells keep of their leaf. */
+/* Appends the four cells of a leaf. A cell may begin its search at the hit of a pixel below if its class sees the shutter as one piece. `sum` starts with the
+ * values that the cells keep of their leaf. */
 static void add_children(const refinement *f, size_t tile, tile_cells *cells, tile_pixels *sum, const leaf *l)
 {
     const float kept = lane_kept(f->tiles[tile].dark, l->variance);

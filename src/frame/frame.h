@@ -64,8 +64,8 @@ wave_meeting frame_meeting(const frame *f, const camera_rays *camera, interval t
 /* Fills a set with the frame's waves relative to a camera, without a skyline. `filter` false: every wave is resolved, as point samples see them. */
 void wave_set_place(const frame *f, const camera_rays *camera, interval time, bool filter, wave_set *set);
 
-/* Fills a set as wave_set_place() does, with the filtered waves of the part of the shutter between its fractions `from` and `to`. The camera stands in the middle
- * of its way from `open` to `close`, and its place and its rays change evenly. */
+/* Fills a set as wave_set_place() does, with the filtered waves of the part of the shutter between its fractions `from` and `to`. The camera stands in the
+ * middle of its way from `open` to `close`. Its place and its rays change evenly. */
 void wave_set_sweep(const frame *f, const camera_rays *open, const camera_rays *close, double from, double to, wave_set *set);
 
 /* Fills a set as wave_set_place() does, with the skyline if `filter` is true. */

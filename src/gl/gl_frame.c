@@ -304,8 +304,8 @@ mgt_status gl_step_done(gl_run *run, double steps)
 
 /* ---- methods ---- */
 
-/* Prepares the band's tiles for the part of the shutter between its fractions `from` and `to`: if the camera moves, for the cameras at both ends, or for that in
- * the middle of its way. The part from 1 to 1 is the instant at which the shutter closes. */
+/* Prepares the band's tiles for the part of the shutter between its fractions `from` and `to`. If the camera moves, it does so for the cameras at both ends, or
+ * for that in the middle of its way. The part from 1 to 1 is the instant at which the shutter closes. */
 static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from, double to)
 {
     const frame *f = run->job->frame;

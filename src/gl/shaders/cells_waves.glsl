@@ -45,5 +45,6 @@ ViewData set_view(int size)
     CameraRays rays = CameraRays(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w);
     vec4 h = uintBitsToFloat(g), x = uintBitsToFloat(wave_sets[at + 6]), y = uintBitsToFloat(wave_sets[at + 7]), z = uintBitsToFloat(wave_sets[at + 8]);
     CameraMotion motion = CameraMotion(x.x, x.y, x.z, x.w, y.x, y.y, y.z, y.w, z.x, z.y, z.z, z.w);
-    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), h.y, h.z, h.w, motion, uintBitsToFloat(wave_sets[at + 9].x), 0.0f, 0.0f, 0.0f);
+    float to_close = uintBitsToFloat(wave_sets[at + 9].x);
+    return ViewData(rays, d.x, d.y, d.z, d.w, int(e.x), int(e.y), f.z, f.w, int(g.x), h.y, h.z, h.w, motion, to_close, 0.0f, 0.0f, 0.0f);
 }
