@@ -117,13 +117,13 @@ static void add_part(const mgt_pixel_info *of_part, float part, mgt_pixel_info *
 void inspect_pixel(const frame *f, const frame_waves *waves, const float *sky, uint32_t x, uint32_t y, tile_scratch *scratch, mgt_pixel_info *info)
 {
     const tile_pixel pixel = {x / TILE_WIDTH, y / TILE_HEIGHT, x % TILE_WIDTH, y % TILE_HEIGHT};
-    const int parts = f->scene->camera_moves ? 2 : 1;
+    const int parts = f->scene->camera_moves ? CAMERA_PARTS : 1;
     struct kernel_context cx;
     *info = (mgt_pixel_info){.struct_size = sizeof *info};
     bool water = false;
     SlopeState state;
     for (int part = 0; part < parts; part++) {
-        const wave_set *set = f->scene->camera_moves ? &waves->halves[part] : &waves->shutter;
+        const wave_set *set = f->scene->camera_moves ? &waves->parts[part] : &waves->shutter;
         cx = sort_tile(f, set, sky, pixel, &scratch->close, scratch->close_estimate);
         const uint32_t hits = (uint32_t)cx.tile->hit_rows;
         mgt_pixel_info of_part = {0};

@@ -163,15 +163,15 @@ static const wave_set *waves_of(const tile_job *job)
     return waves == MGT_WAVES_POINT ? &job->waves->samples : waves == MGT_WAVES_INSTANT ? &job->waves->now : &job->waves->shutter;
 }
 
-/* Renders the mean over both halves of the shutter, each from the middle of the camera's way in it. */
-static void render_halves(tile_place place, tile_scratch *scratch)
+/* Renders the mean over the parts of the shutter, each from the middle of the camera's way in it. */
+static void render_moving(tile_place place, tile_scratch *scratch)
 {
     tile_pixels part;
     memset(&scratch->pixels, 0, sizeof scratch->pixels);
-    for (int i = 0; i < 2; i++) {
-        build(place, &place.job->waves->halves[i], &scratch->close, scratch->close_estimate);
+    for (int i = 0; i < CAMERA_PARTS; i++) {
+        build(place, &place.job->waves->parts[i], &scratch->close, scratch->close_estimate);
         shade_pixels(place.job, false, scratch, &part);
-        add_weighted(&part, 0.5f, &scratch->pixels);
+        add_weighted(&part, 1.0f / CAMERA_PARTS, &scratch->pixels);
     }
 }
 
@@ -260,7 +260,7 @@ static void render_pixels(tile_place place, tile_scratch *scratch)
     else if (q->path_segments > 1)
         render_segments(place, scratch);
     else if (frame_from_middle(place.job->frame))
-        render_halves(place, scratch);
+        render_moving(place, scratch);
     else
         render_shaded(place, scratch);
 }

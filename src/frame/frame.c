@@ -134,7 +134,6 @@ static void matrix_between(const camera_rays *from, const camera_rays *to, doubl
             out[i][k] = volume != 0 ? (to->corner[i] * across[0][k] + to->right[i] * across[1][k] + to->down[i] * across[2][k]) / volume : 0;
 }
 
-/* The camera in the middle of its way. */
 static camera_rays middle_of(const camera_rays *open, const camera_rays *close)
 {
     camera_rays m;
@@ -147,9 +146,8 @@ static camera_rays middle_of(const camera_rays *open, const camera_rays *close)
     return m;
 }
 
-static CameraMotion motion_of(const camera_rays *open, const camera_rays *close)
+static CameraMotion motion_of(const camera_rays *open, const camera_rays *middle, const camera_rays *close)
 {
-    const camera_rays middle = middle_of(open, close);
     camera_rays change;
     double travel[3], turn[3][3];
     for (int i = 0; i < 3; i++) {
@@ -158,7 +156,7 @@ static CameraMotion motion_of(const camera_rays *open, const camera_rays *close)
         change.right[i] = close->right[i] - open->right[i];
         change.down[i] = close->down[i] - open->down[i];
     }
-    matrix_between(&middle, &change, turn);
+    matrix_between(middle, &change, turn);
     return (CameraMotion){.travel_x = (float)travel[0],
                           .turn_xx = (float)turn[0][0],
                           .turn_xy = (float)turn[0][1],
@@ -262,7 +260,7 @@ void wave_set_sweep(const frame *f, const camera_rays *open, const camera_rays *
     wave_set_place(f, &middle, frame_part(f, from, to), true, set);
     if (!f->scene->camera_moves)
         return;
-    set->view.motion = motion_of(open, close);
+    set->view.motion = motion_of(open, &middle, close);
     set->view.to_close = (float)((1 - 0.5 * (from + to)) / (to - from));
 }
 

@@ -55,6 +55,9 @@ interval frame_shutter(const frame *f);
 /* The interval during which the shutter is open, between two fractions of it. */
 interval frame_part(const frame *f, double from, double to);
 
+/* Parts of the shutter in each of which pixels see a moving camera from the middle of its way. */
+enum { CAMERA_PARTS = 2 };
+
 /* Whether the frame's camera moves and its method sees it from the middle of its way, not from both ends. */
 bool frame_from_middle(const frame *f);
 

@@ -16,10 +16,11 @@ void frame_waves_build(const frame *f, frame_waves *waves)
     if (!s->camera_moves)
         return;
     wave_set_build(f, &f->open, (interval){s->time - s->shutter, 0}, true, &waves->open);
-    for (int i = 0; i < 2; i++) {
-        const camera_rays open = camera_at(f, 0.5 * i), close = camera_at(f, 0.5 * (i + 1));
-        wave_set_sweep(f, &open, &close, 0.5 * i, 0.5 * (i + 1), &waves->halves[i]);
-        skyline_copy(i > 0 ? &waves->shutter : &waves->open, &waves->halves[i]);
+    for (int i = 0; i < CAMERA_PARTS; i++) {
+        const double from = (double)i / CAMERA_PARTS, to = (i + 1.0) / CAMERA_PARTS;
+        const camera_rays open = camera_at(f, from), close = camera_at(f, to);
+        wave_set_sweep(f, &open, &close, from, to, &waves->parts[i]);
+        skyline_copy(&waves->shutter, &waves->parts[i]);
     }
 }
 

@@ -11,8 +11,8 @@ typedef struct frame_waves {
     wave_set now;     /* the instant t, filtered */
     wave_set shutter; /* the interval during which the shutter is open, filtered; if the camera moves: the instant t */
     wave_set open;    /* if the camera moves: the instant at which the shutter opens, relative to the camera of that instant; else not set */
-    wave_set
-        halves[2]; /* if the camera moves: the first and the last half of that interval, filtered, from the middle of the camera's way in it; else not set */
+    /* If the camera moves: equal parts of that interval, filtered, from the middle of the camera's way in each; else not set. */
+    wave_set parts[CAMERA_PARTS];
 } frame_waves;
 
 void frame_waves_build(const frame *f, frame_waves *waves);

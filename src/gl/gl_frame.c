@@ -327,11 +327,11 @@ static mgt_status prepare_part(const gl_run *run, const gl_band *b, double from,
     return status == MGT_OK ? gl_search_nodes(run, both ? 2 * b->tiles : b->tiles) : status;
 }
 
-/* Number of parts of the shutter: podee-* may be asked for several, and a moving camera has two for methods that see it from the middle of its way. */
+/* Number of parts of the shutter: podee-* may be asked for several, and a moving camera has CAMERA_PARTS for methods that see it from the middle of its way. */
 static uint32_t parts_of(const frame *f)
 {
     const mgt_quality *q = &f->scene->quality;
-    return q->path_segments > 1 ? q->path_segments : frame_from_middle(f) ? 2 : 1;
+    return q->path_segments > 1 ? q->path_segments : frame_from_middle(f) ? CAMERA_PARTS : 1;
 }
 
 /* Shades a band by a filtered method: the mean over the parts of the shutter. */
